@@ -139,7 +139,7 @@ leave_out() {
   left=$((left + 1))
   say "$(printf '%-28s left out, %s' "$1" "$2")"
 }
-# ending STATUS EARLY: what an exit status says (src/program/exit_codes.h; timeout's own).
+# ending STATUS EARLY: what an exit status says (src/program/cli/exit_codes.h; timeout's own).
 ending() {
   case $1$2 in
     0?) echo fine ;;

@@ -9,25 +9,25 @@
 #include <new>
 #include <string>
 
-#include "program/command_line.h"
-#include "program/conform_command.h"
-#include "program/convert_command.h"
-#include "program/devices_command.h"
-#include "program/exit_codes.h"
-#include "program/info_command.h"
-#include "program/interruption.h"
-#include "program/kernels_command.h"
-#include "program/make_command.h"
-#include "program/material_command.h"
-#include "program/measure_command.h"
-#include "program/ranks.h"
-#include "program/render_command.h"
-#include "program/scene_command.h"
-#include "program/simulate_command.h"
-#include "program/standard_error.h"
-#include "program/sweep_command.h"
-#include "program/tune_command.h"
-#include "program/view_command.h"
+#include "mpi/ranks.h"
+#include "program/cli/command_line.h"
+#include "program/cli/exit_codes.h"
+#include "program/cli/interruption.h"
+#include "program/cli/standard_error.h"
+#include "program/convert/convert_command.h"
+#include "program/convert/make_command.h"
+#include "program/convert/material_command.h"
+#include "program/device/conform_command.h"
+#include "program/device/devices_command.h"
+#include "program/device/kernels_command.h"
+#include "program/device/tune_command.h"
+#include "program/measure/info_command.h"
+#include "program/measure/measure_command.h"
+#include "program/render/render_command.h"
+#include "program/simulate/scene_command.h"
+#include "program/simulate/simulate_command.h"
+#include "program/sweep/sweep_command.h"
+#include "program/view/view_command.h"
 #include "ringlet/version.h"
 
 namespace ringlet::program {
@@ -36,7 +36,7 @@ namespace {
 int run(int argumentCount, char** arguments) {
   int exitCode = kExitFine;
   failInsteadOfEnding();
-  if (const std::string wrong = joinRanks(argumentCount, arguments); !wrong.empty()) {
+  if (const std::string wrong = mpi::joinRanks(argumentCount, arguments); !wrong.empty()) {
     say("ringlet: {}\n", wrong);
     return kExitUsage;
   }
@@ -94,6 +94,6 @@ int run(int argumentCount, char** arguments) {
 
 int main(int argumentCount, char** arguments) {
   const int exitCode = ringlet::program::run(argumentCount, arguments);
-  ringlet::program::leaveRanks(exitCode);
+  ringlet::mpi::leaveRanks(exitCode);
   return exitCode;
 }

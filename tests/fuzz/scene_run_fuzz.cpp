@@ -2,7 +2,7 @@
 // a kernel's. Scenes beyond kMost... are left aside, so that a file takes milliseconds.
 #include <utility>
 
-#include "program/hair_maker.h"
+#include "program/simulate/reference_hair.h"
 #include "ringlet/output/finite_points.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/scenes/load_scene.h"

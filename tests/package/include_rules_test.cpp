@@ -123,6 +123,36 @@ TEST(IncludeRules, TheViewKnowsNoProgram) {
       EXPECT_NE(include.rfind("view/", 0), 0u) << file << " includes " << include;
 }
 
+// A run of the program is the library's: what talks to the solver itself is in one folder.
+TEST(IncludeRules, OnlyTheProgramsDevicesKnowTheSolver) {
+  std::size_t count = 0;
+  for (const fs::path& file : sourcesBelow("src/program")) {
+    const bool isOfDevices = file.parent_path().filename() == "device";
+    for (const std::string& include : includesOf(file)) {
+      if (moduleOf(include) != "solver") continue;
+      ++count;
+      EXPECT_TRUE(isOfDevices) << file << " includes " << include;
+    }
+  }
+  EXPECT_GT(count, 5u);
+}
+
+// Ranks are one more SceneHair: they know the library, and of the program only the run knows them.
+TEST(IncludeRules, RanksAreKnownToTheRunAlone) {
+  for (const fs::path& file : sourcesBelow("src/mpi")) {
+    for (const std::string& include : includesOf(file))
+      for (const char* other : {"program/", "reference/", "parity/", "view/", "Eigen"})
+        EXPECT_NE(include.rfind(other, 0), 0u) << file << " includes " << include;
+  }
+  for (const char* folder : {"src/ringlet", "src/program", "src/view", "src/python", "src/parity"}) {
+    for (const fs::path& file : sourcesBelow(folder)) {
+      const bool isTheRun = file.filename() == "hair_maker.cpp" || file.filename() == "main.cpp";
+      for (const std::string& include : includesOf(file))
+        EXPECT_TRUE(isTheRun || include.rfind("mpi/", 0) != 0) << file << " includes " << include;
+    }
+  }
+}
+
 // Paths below src, from a list that CMake wrote: "a.h|b.h".
 std::set<std::string> listed(const std::string& list) {
   std::set<std::string> paths;

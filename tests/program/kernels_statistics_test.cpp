@@ -1,7 +1,7 @@
 // What is made of drivers' statistics, by the names that each gives them.
 #include <gtest/gtest.h>
 
-#include "program/kernels_statistics.h"
+#include "program/device/kernels_statistics.h"
 
 namespace ringlet::program {
 namespace {

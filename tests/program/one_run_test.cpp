@@ -109,33 +109,6 @@ class OneRun : public test::GpuTest {
     return positionsHash(*session->hairs()[0].simulation().positions());
   }
   std::string byC(const fs::path& path) {
-    ringlet_device* device = nullptr;
-    ringlet_scene* scene = nullptr;
-    ringlet_asset* asset = nullptr;
-    ringlet_hair* hair = nullptr;
-    std::string hash;
-    const auto run = [&] {
-      if (ringlet_device_open(nullptr, &device) != RINGLET_OK ||
-          ringlet_scene_read(path.c_str(), nullptr, &scene) != RINGLET_OK ||
-          ringlet_scene_build(device, scene, nullptr, &asset) != RINGLET_OK ||
-          ringlet_scene_hair(scene, asset, &hair) != RINGLET_OK)
-        return false;
-      for (int frame = 0; frame < kFrames; ++frame) {
-        if (ringlet_scene_step(scene, hair, frame) != RINGLET_OK) return false;
-      }
-      std::vector<Vec3f> points(ringlet_asset_particle_count(asset));
-      if (ringlet_positions(hair, &points[0].x, points.size()) != RINGLET_OK) return false;
-      hash = positionsHash(points);
-      return true;
-    };
-    if (!run()) hash = ringlet_error_message();
-    ringlet_hair_release(hair);
-    ringlet_asset_release(asset);
-    ringlet_scene_release(scene);
-    ringlet_device_release(device);
-    return hash;
-  }
-  std::string byRunOfC(const fs::path& path) {
     ringlet_scene* scene = nullptr;
     ringlet_run_options options = RINGLET_INIT(ringlet_run_options);
     options.frame_count = kFrames;
@@ -172,7 +145,6 @@ class OneRun : public test::GpuTest {
     ASSERT_EQ(expected.size(), 16u) << expected;
     EXPECT_EQ(byHost(*scene), expected) << "a host";
     EXPECT_EQ(byC(path), expected) << "C";
-    EXPECT_EQ(byRunOfC(path), expected) << "C's ringlet_scene_run";
     EXPECT_EQ(byWindow(*file, *scene), expected) << "a window's session";
 #ifdef RINGLET_PYTHON
     EXPECT_EQ(byPython(path), expected) << "Python";

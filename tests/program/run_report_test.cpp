@@ -1,6 +1,6 @@
 // program/run_report.h and measure_report.h: every number of the JSON in its unit. The values told apart from
 // each other by their size are exact in binary, so that whole objects can be compared.
-#include "program/run_report.h"
+#include "program/simulate/run_report.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "program/measure_report.h"
+#include "program/measure/measure_report.h"
 #include "tests/measure/strand_samples.h"
 
 namespace ringlet::program {

@@ -1,5 +1,5 @@
 // Options made from tables of settings: every one of them reaches its setting, and nothing else does.
-#include "program/setting_options.h"
+#include "program/cli/setting_options.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -43,6 +43,11 @@ double haloShare(const Groom& groom, const Settings& settings,
   return around / static_cast<double>(groom.strandCount());
 }
 
+Result<std::vector<std::vector<std::uint32_t>>> divide(const Groom& groom, const Settings& settings,
+                                                       std::size_t count) {
+  return divideStrands(groom, settings, *buildWholeRest(groom, {}, settings), count);
+}
+
 TEST(StrandParts, EachStrandIsInOnePart) {
   const Groom groom = head(90, 0.5);
   std::vector<Settings> all{Settings{}};
@@ -51,7 +56,7 @@ TEST(StrandParts, EachStrandIsInOnePart) {
     for (const bool prunes : {true, false}) all.push_back(contacts(method, prunes));
   for (const Settings& settings : all) {
     for (const std::size_t count : {1, 2, 5, 90}) {
-      const auto parts = divideStrands(groom, {}, settings, count);
+      const auto parts = divide(groom, settings, count);
       ASSERT_TRUE(parts) << parts.error().message;
       ASSERT_EQ(parts->size(), count);
       std::multiset<std::uint32_t> strands;
@@ -61,7 +66,7 @@ TEST(StrandParts, EachStrandIsInOnePart) {
       }
       EXPECT_EQ(strands.size(), groom.strandCount());
       EXPECT_EQ(std::set<std::uint32_t>(strands.begin(), strands.end()).size(), groom.strandCount());
-      EXPECT_EQ(*parts, *divideStrands(groom, {}, settings, count)) << "another time, other parts";
+      EXPECT_EQ(*parts, *divide(groom, settings, count)) << "another time, other parts";
     }
   }
 }
@@ -71,7 +76,7 @@ TEST(StrandParts, StrandsThatMayTouchGoTogether) {
   const Groom groom = head(300);
   for (const bool prunes : {true, false}) {
     const Settings settings = contacts(ContactMethod::explicitPairs, true);
-    const auto parts = *divideStrands(groom, {}, contacts(ContactMethod::explicitPairs, prunes), 4);
+    const auto parts = *divide(groom, contacts(ContactMethod::explicitPairs, prunes), 4);
     std::vector<std::vector<std::uint32_t>> dealt(4);
     for (std::uint32_t s = 0; s < 300; ++s) dealt[s % 4].push_back(s);
     EXPECT_LT(haloShare(groom, settings, parts), 0.4 * haloShare(groom, settings, dealt));
@@ -84,7 +89,7 @@ TEST(StrandParts, WeighTheSame) {
   const auto rest = *buildRestState(groom, {}, settings, orderAlongCurve(groom));
   const StrandGraph graph = strandGraph(rest, buildRestContacts(rest, settings.contacts));
   for (const int count : {2, 4, 8}) {
-    const auto parts = *divideStrands(groom, {}, settings, static_cast<std::size_t>(count));
+    const auto parts = *divide(groom, settings, static_cast<std::size_t>(count));
     const auto partOf = *partOfEach(parts, rest);
     const std::vector<std::int32_t> of(partOf.begin(), partOf.end());
     EXPECT_LE(imbalance(graph, of, count), 1.08) << count << " parts";
@@ -92,7 +97,7 @@ TEST(StrandParts, WeighTheSame) {
 }
 
 TEST(StrandParts, MoreThanStrandsAreRefused) {
-  const auto parts = divideStrands(head(3), {}, Settings{}, 4);
+  const auto parts = divide(head(3), Settings{}, 4);
   ASSERT_FALSE(parts);
   EXPECT_EQ(parts.error().message, "4 parts are more than the groom's 3 strands");
 }

@@ -72,6 +72,7 @@ Result<std::unique_ptr<SceneHair>> makeDeviceHair(const SceneHairInput& input, D
   const ScenePlaces start = input.frames.placesAt(input.frames.first());
   choice.kernel.geometry = input.scene.geometry.get();
   choice.kernel.residual = input.measuresResidual;
+  choice.kernel.rest = input.rest;
   auto simulation =
       Simulation::create(choice.device, input.scene.groom, input.scene.material, input.settings(),
                          stateOf(start, input.scene), kernelOf(input.scene, choice.kernel));

@@ -5,10 +5,17 @@
 
 #include <utility>
 
+#include "ringlet/rest/whole_rest.h"
 #include "ringlet/run/split_hair.h"
 #include "ringlet/run/strand_parts.h"
 
 namespace ringlet {
+
+Result<WholeRest> wholeRestOf(const SceneHairInput& input) {
+  const LoadedScene& scene = input.scene;
+  const auto geometry = scene.geometry ? std::span(*scene.geometry) : std::span<const StrandGeometry>();
+  return buildWholeRest(scene.groom, scene.material, input.settings(), geometry);
+}
 
 Result<std::unique_ptr<SceneHair>> makeDividedHair(const SceneHairInput& input,
                                                    std::vector<DeviceHairChoice> choices) {
@@ -16,9 +23,13 @@ Result<std::unique_ptr<SceneHair>> makeDividedHair(const SceneHairInput& input,
   const std::size_t count = choices.size(), strands = input.scene.groom.strandCount();
   if (count > strands)
     return Error{fmt::format("{} devices are more than the groom's {} strands", count, strands)};
-  const auto parts = divideStrands(input.scene.groom, input.scene.material, input.settings(), count);
+  const auto rest = wholeRestOf(input);
+  if (!rest) return rest.error();
+  const auto parts = divideStrands(input.scene.groom, input.settings(), *rest, count);
   if (!parts) return parts.error();
-  return makeSplitHair(input, *parts, std::move(choices));
+  SceneHairInput withRest = input;
+  withRest.rest = &*rest;
+  return makeSplitHair(withRest, *parts, std::move(choices));
 }
 
 HairMaker hairOn(std::vector<ComputeDevice> devices, const KernelChoice& kernel) {

@@ -12,6 +12,9 @@
 
 namespace ringlet {
 
+/// Of all of the input's hair. Errors: as buildWholeRest.
+Result<WholeRest> wholeRestOf(const SceneHairInput& input);
+
 /// A device each, at least one; one may be there twice. Errors: those of the hair; more devices than strands.
 Result<std::unique_ptr<SceneHair>> makeDividedHair(const SceneHairInput& input,
                                                    std::vector<DeviceHairChoice> choices);

@@ -69,9 +69,10 @@ class SceneHair {
 /// What hair is made of.
 struct SceneHairInput {
   const LoadedScene& scene;
-  const SceneFrames& frames;      // of it
-  bool isStepByStep = false;      // it is given SceneFrame::step of each step, and not whole frames
-  bool measuresResidual = false;  // of the velocity solve
+  const SceneFrames& frames;        // of it
+  bool isStepByStep = false;        // it is given SceneFrame::step of each step, and not whole frames
+  bool measuresResidual = false;    // of the velocity solve
+  const WholeRest* rest = nullptr;  // of all of the hair, where it is known
 
   Settings settings() const { return isStepByStep ? stepByStep(frames.settings()) : frames.settings(); }
 };

@@ -12,7 +12,6 @@
 #endif
 
 #include "ringlet/base/assert.h"
-#include "ringlet/rest/strand_order.h"
 
 namespace ringlet {
 namespace {
@@ -94,26 +93,24 @@ double imbalance(const StrandGraph& graph, std::span<const std::int32_t> parts, 
   return *std::ranges::max_element(weights) * count / whole;
 }
 
-Result<Parts> divideStrands(const Groom& groom, const Material& material, const Settings& settings,
+Result<Parts> divideStrands(const Groom& groom, const Settings& settings, const WholeRest& rest,
                             std::size_t count) {
   if (count > groom.strandCount())
     return Error{fmt::format("{} parts are more than the groom's {} strands", count, groom.strandCount())};
-  if (!settings.contacts.on) return dealStrands(groom, count);
-  const auto rest = buildRestState(groom, material, settings, orderAlongCurve(groom));
-  if (!rest) return rest.error();
-  if (rest->strands.empty()) return dealStrands(groom, count);
-  ContactSettings near = settings.contacts;
-  if (!near.prunePairs)
-    near.prunePairs = true, near.minOverlaps = 1;  // any two may touch: those that are near
-  const RestContacts contacts = buildRestContacts(*rest, near);
-  if (!contacts.kinds.pairs) return dealStrands(groom, count);
-  const auto partOf = divide(strandGraph(*rest, contacts), static_cast<int>(count));
+  if (!rest.contacts || !rest.contacts->kinds.pairs) return dealStrands(groom, count);
+  std::optional<RestContacts> near;
+  if (!settings.contacts.prunePairs) {  // any two may touch: those that are near
+    ContactSettings pruned = settings.contacts;
+    pruned.prunePairs = true, pruned.minOverlaps = 1;
+    near = buildRestContacts(rest.state, pruned);
+  }
+  const auto partOf = divide(strandGraph(rest.state, near ? *near : *rest.contacts), static_cast<int>(count));
   Parts parts(count);
   for (std::size_t s = 0; s < partOf.size(); ++s)
-    parts[static_cast<std::size_t>(partOf[s])].push_back(rest->strandInGroom[s]);
+    parts[static_cast<std::size_t>(partOf[s])].push_back(rest.state.strandInGroom[s]);
   // Strands that are carried rigidly meet none.
-  for (std::size_t k = 0; k < rest->rigid.size(); ++k)
-    parts[k % count].push_back(rest->rigid[k].strandInGroom);
+  for (std::size_t k = 0; k < rest.state.rigid.size(); ++k)
+    parts[k % count].push_back(rest.state.rigid[k].strandInGroom);
   fillEmpty(parts);
   return parts;
 }

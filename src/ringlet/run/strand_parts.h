@@ -9,7 +9,7 @@
 
 #include "ringlet/base/result.h"
 #include "ringlet/groom/groom.h"
-#include "ringlet/rest/material.h"
+#include "ringlet/rest/whole_rest.h"
 #include "ringlet/run/strand_graph.h"
 #include "ringlet/scene/settings.h"
 
@@ -28,9 +28,9 @@ double imbalance(const StrandGraph& graph, std::span<const std::int32_t> parts, 
 
 /// Strands of each of `count` parts, groom order, each in one part. Where strands meet pair by pair: by
 /// METIS, k-way if bisection leaves an imbalance above 1.05; without METIS along the curve. Else they are
-/// dealt out by length. Errors: as buildRestState; fewer strands than parts. Cost: where strands may meet,
-/// that of buildRestState and buildRestContacts, and of METIS: 10 ms for 1,500 strands, 0.3 s for 20,000.
-Result<std::vector<std::vector<std::uint32_t>>> divideStrands(const Groom& groom, const Material& material,
-                                                              const Settings& settings, std::size_t count);
+/// dealt out by length. `rest`: of the groom with these settings. Errors: fewer strands than parts. Cost:
+/// that of METIS, where strands may meet: 10 ms for 1,500 strands, 0.3 s for 20,000.
+Result<std::vector<std::vector<std::uint32_t>>> divideStrands(const Groom& groom, const Settings& settings,
+                                                              const WholeRest& rest, std::size_t count);
 
 }  // namespace ringlet

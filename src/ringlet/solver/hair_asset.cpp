@@ -7,7 +7,7 @@
 
 #include "layout/strands.h"
 #include "ringlet/rest/rest_part.h"
-#include "ringlet/rest/strand_order.h"
+#include "ringlet/rest/whole_rest.h"
 #include "ringlet/solver/dispatch_plan.h"
 #include "ringlet/solver/hair_asset_implementation.h"
 #include "ringlet/solver/part_link.h"
@@ -85,29 +85,21 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
     return Error{"goals need the integrator jacobi; this run has another"};
   if (choice.fields && settings.integrator != Integrator::jacobi)
     return Error{"fields need the integrator jacobi; this run has another"};
-  // Order in which strands that may touch are near each other in memory.
-  std::vector<std::uint32_t> order;
-  if (settings.contacts.on) order = orderAlongCurve(groom);
   const auto geometry = choice.geometry ? std::span(*choice.geometry) : std::span<const StrandGeometry>();
-  auto rest = buildRestState(groom, material, settings, order, geometry);
-  if (!rest) return rest.error();
+  auto whole =
+      choice.rest ? Result<WholeRest>(*choice.rest) : buildWholeRest(groom, material, settings, geometry);
+  if (!whole) return whole.error();
+  auto& [rest, contacts, volume] = *whole;
   if (choice.link || !choice.part.empty()) {
     if (Status possible = checkPart(settings, choice.link); !possible) return possible.error();
   }
-  std::optional<RestContacts> contacts;
-  std::optional<RestVolume> volume;
   std::optional<RestHalo> halo;
-  if (settings.contacts.on && !rest->strands.empty()) {
-    contacts = buildRestContacts(*rest, settings.contacts);
-    std::ranges::copy(contacts->warnings(), std::back_inserter(rest->warnings));
-    if (contacts->kinds.volume) volume = buildRestVolume(*rest, *contacts);
-    if (choice.link) {
-      auto found = restrictTo({*rest, *contacts, volume}, *choice.link);
-      if (!found) return found.error();
-      halo = std::move(*found);
-    }
-  } else if (!choice.part.empty()) {
-    if (Status restricted = restrictTo(*rest, choice.part); !restricted) return restricted.error();
+  if (contacts && choice.link) {
+    auto found = restrictTo({rest, *contacts, volume}, *choice.link);
+    if (!found) return found.error();
+    halo = std::move(*found);
+  } else if (!contacts && !choice.part.empty()) {
+    if (Status restricted = restrictTo(rest, choice.part); !restricted) return restricted.error();
   }
   const auto limits = withSubgroupSize(device.limits(), choice.subgroupSize);
   if (!limits) return limits.error();
@@ -118,7 +110,7 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
                                                               .choice = choice,
                                                               .bodies = bodies,
                                                               .limits = *limits,
-                                                              .rest = std::move(*rest),
+                                                              .rest = std::move(rest),
                                                               .halo = std::move(halo),
                                                               .contacts = std::move(contacts),
                                                               .volume = std::move(volume)});
@@ -128,6 +120,7 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   self->choice.measured = {};
   self->choice.part = {};
   self->choice.geometry = nullptr;
+  self->choice.rest = nullptr;
   const std::vector<std::uint32_t> counts = particleCounts(self->rest);
   self->records = groomRecords(settings, self->choice, self->kinds(), device.gpu().properties().isCpu);
   if (!self->rest.edgeFactors.empty()) self->records.particleRest += sizeof(EdgeFactors);

@@ -12,6 +12,7 @@ namespace ringlet {
 
 class PartLink;
 struct StrandGeometry;
+struct WholeRest;
 
 /// Is notified when the driver begins to compile a simulation's kernels, which may take seconds, and when it
 /// has finished. Not called where all kernels have been compiled on this device before.
@@ -47,6 +48,8 @@ struct KernelChoice {
   // Of the groom's strands, where it is known (measureGeometry of rest/rest_state.h); read until build or
   // create returns.
   const std::vector<StrandGeometry>* geometry = nullptr;
+  // Of the groom with this material and these settings, where it is known; read until then too.
+  const WholeRest* rest = nullptr;
   CompileObserver* observer = nullptr;  // must live as long as simulations are created with this
   bool residual = false;  // measure the velocity solve's residual (SimulationReport), a few per cent slower
   bool movingRoots = false;  // strands have root poses (Simulation::stepFrame)

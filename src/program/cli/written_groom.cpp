@@ -1,0 +1,25 @@
+// Implements written_groom.h.
+#include "program/cli/written_groom.h"
+
+#include <fmt/format.h>
+
+namespace ringlet::program {
+
+std::vector<std::string> lostIn(const std::filesystem::path& path, double unit, bool upIsZ) {
+  std::vector<std::string> lost;
+  if (unit != Groom{}.metresPerUnit) {
+    lost.push_back(fmt::format(
+        "{} does not hold its unit, {} m, and without an option counts as {} m; say --unit {} to every "
+        "command that reads it, or unit = {} of [groom]",
+        path.string(), unit, Groom{}.metresPerUnit, unit, unit));
+  }
+  if (upIsZ) {
+    lost.push_back(fmt::format(
+        "{} does not hold its up axis, Z, and without an option counts as Y up; say --up Z to every command "
+        "that reads it, or up = \"Z\" of [groom]",
+        path.string()));
+  }
+  return lost;
+}
+
+}  // namespace ringlet::program

@@ -1,0 +1,481 @@
+// Implements convert_command.h: options to a ConvertPlan. The conversion is convert_run.cpp.
+#include "program/convert/convert_command.h"
+#include "program/cli/standard_error.h"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "program/cli/command_line.h"
+#include "program/cli/confined_option.h"
+#include "program/cli/exit_codes.h"
+#include "program/cli/frame_range.h"
+#include "program/cli/groom_options.h"
+#include "program/cli/hair_look_options.h"
+#include "program/cli/standard_output.h"
+#include "program/cli/written_groom.h"
+#include "program/convert/convert_run.h"
+#include "program/simulate/reference_mover.h"
+#include "program/simulate/run_report.h"
+#include "ringlet/groom/groom_file.h"
+#include "ringlet/output/animation_reader.h"
+#include "ringlet/output/animation_writer.h"
+#include "ringlet/output/precision_names.h"
+#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/scene_file.h"
+
+namespace ringlet::program {
+namespace {
+
+constexpr const char* kExample =
+    "Examples:\n"
+    "  ringlet convert out/hair.rgc hair.usda                    the same text as simulate writes\n"
+    "  ringlet convert out/hair.rgc small.rgc --precision 16bit\n"
+    "  ringlet convert out/hair.usda hair.rgc\n"
+    "  ringlet convert out/hair.rgc hair.usdc                    USD in a third of the bytes, any frame at "
+    "once\n"
+    "  ringlet convert out/hair.rgc frames/ --frames 1:24        frames/hair.0001.obj to hair.0024.obj\n"
+    "  ringlet convert out/hair.rgc pose.obj --frame 12\n"
+    "  ringlet convert out/hair.rgc frames.ply                   frames.0001.ply and so on\n"
+    "  ringlet convert out/hair.rgc hair.usda --clips 100        in parts of 100 frames, hair_clips/\n"
+    "  ringlet convert out/hair.rgc hair.pc2                     and hair.obj, for Blender 3\n"
+    "  ringlet convert out/hair.rgc sheet.png\n"
+    "  ringlet convert out/hair.rgc full.usdc --hairs 20000 --groom groom.obj\n"
+    "  ringlet convert out/hair.rgc.partial --info               of a run that was cut short, or goes on\n"
+    "  ringlet convert groom.usdc groom.hair                     another program's groom; .hair, .obj or "
+    ".ply\n"
+    "\n"
+    "OUT's ending says what becomes of it. .usda, .usdc, .rgc and .png count frames from 1 again; the names "
+    "of .obj\n"
+    "files keep the animation's numbers. Damaged frames are refused, whole ones beside them can be had with\n"
+    "--frames. A file that was not finished is read as far as it goes, and a warning says so.\n"
+    "\n"
+    "--json keys: frames strands particles bytes error_bound_m (how far any point may be from what was\n"
+    "simulated) warnings outputs (of a sequence the first and the last). With --info: format precision\n"
+    "finished frames strands particles fps metres_per_unit up width_m bytes bytes_per_point error_bound_m\n"
+    "warnings.\n"
+    "\n"
+    "Exit status: 0 done, 1 something failed, 2 wrong usage.";
+
+// The command line as typed.
+struct Typed {
+  std::filesystem::path input, output;
+  SceneReach reach = SceneReach::anywhere;
+  std::string frames;
+  std::optional<int> frame;
+  std::string precision;
+  std::vector<std::string> values;
+  std::optional<int> clips;
+  std::optional<double> tipWidth;
+  std::optional<int> hairs;
+  HairLook look;
+  GroomChoice reading;
+  std::optional<std::string> up;
+  std::optional<double> metresPerUnit;
+  std::filesystem::path groom, scene;
+  bool info = false, json = false, quiet = false, overwrite = false;
+};
+
+bool has(const Typed& typed, const char* value) {
+  return std::ranges::find(typed.values, value) != typed.values.end();
+}
+
+// ".usda, .usdc, .rgc, .pc2", with notes or without.
+std::string animationList(bool withNotes) {
+  std::string list;
+  for (const AnimationFormat& format : animationFormats()) {
+    list += fmt::format("{}{}", list.empty() ? "" : ", ", format.extension);
+    if (withNotes && *format.note) list += fmt::format(" ({})", format.note);
+  }
+  return list;
+}
+
+// By the ending of its name; nothing where that says nothing.
+std::optional<ConvertTo> kindOf(const Typed& typed) {
+  const std::string extension = typed.output.extension().string();
+  if (animationFormatOf(typed.output)) return ConvertTo::animation;
+  if (extension == ".png") return ConvertTo::sheet;
+  if (isFrameFile(typed.output)) return typed.frame ? ConvertTo::frame : ConvertTo::frameSequence;
+  std::error_code code;
+  if (extension.empty() || std::filesystem::is_directory(typed.output, code)) return ConvertTo::frameSequence;
+  return std::nullopt;
+}
+
+// The scene that IN was simulated from, where it is named.
+Result<std::optional<LoadedScene>> sceneOf(const Typed& typed) {
+  if (typed.scene.empty()) return std::optional<LoadedScene>();
+  const auto file = readScene(typed.scene, {}, typed.reach);
+  if (!file) return file.error();
+  auto scene = loadScene(*file);
+  if (!scene) return scene.error();
+  return std::optional(std::move(*scene));
+}
+
+// Hair that follows the strands of IN, where it is asked for.
+Result<std::optional<FullHair>> fullHairOf(const Typed& typed, const Groom& rest, double metresPerUnit,
+                                           const CutList& cuts = {}, const LoadedScene* scene = nullptr) {
+  if (!typed.hairs) return std::optional<FullHair>();
+  const auto ground = scene ? hairGroundOf(*scene, typed.look) : hairGroundOf(typed.look, metresPerUnit);
+  if (!ground) return ground.error();
+  auto hair = FullHair::make(rest, metresPerUnit, typed.look.of({.hairCount = *typed.hairs}),
+                             followByReference(), scene ? scene->bodies : std::vector<Body>(), *ground, cuts);
+  if (!hair) return hair.error();
+  return std::optional(std::move(*hair));
+}
+
+// The same, of an animation.
+Result<std::optional<FullHair>> fullHairOf(const Typed& typed, double metresPerUnit, const CutList& cuts,
+                                           const std::optional<LoadedScene>& scene) {
+  if (!typed.hairs) return std::optional<FullHair>();
+  if (scene) return fullHairOf(typed, scene->groom, metresPerUnit, cuts, &*scene);
+  const auto rest = readGroom(typed.groom, readingOf(typed.reading));
+  if (!rest) return rest.error();
+  return fullHairOf(typed, rest->groom, metresPerUnit, cuts);
+}
+
+// Throws CLI11's error for what makes no sense together.
+void checkOptions(const Typed& typed) {
+  if (typed.output.empty() && !typed.info)
+    throw CLI::ValidationError("OUT", "name the file to write, or say --info");
+  if (typed.info && (!typed.output.empty() || typed.frame || !typed.frames.empty() ||
+                     !typed.precision.empty() || typed.hairs))
+    throw CLI::ValidationError("--info", "only says what is in IN; leave out OUT and what OUT is to be");
+  if (typed.hairs && typed.groom.empty() && typed.scene.empty())
+    throw CLI::ValidationError(
+        "--hairs", "name with --groom the groom that IN was simulated from, or with --scene the scene");
+  if (!typed.groom.empty() && !typed.scene.empty())
+    throw CLI::ValidationError("--groom", "the scene names its groom; say one of --scene and --groom");
+  if (!typed.hairs && typed.look.isAsked())
+    throw CLI::ValidationError("--hairs", "only such hairs have frizz, clumps and blends; say how many");
+  if (!typed.hairs && !typed.groom.empty()) throw CLI::ValidationError("--groom", "only --hairs needs it");
+  if (!typed.hairs && !typed.scene.empty()) throw CLI::ValidationError("--scene", "only --hairs needs it");
+  if (typed.frame && !typed.frames.empty())
+    throw CLI::ValidationError("--frame", "is one frame, --frames several; say one of them");
+  if (typed.info) return;
+  const auto kind = kindOf(typed);
+  if (!kind)
+    throw CLI::ValidationError(
+        "OUT", fmt::format("'{}' must end in {}, .obj, .ply or .png, or be a folder for .obj files",
+                           typed.output.string(), animationList(false)));
+  const AnimationFormat* format = animationFormatOf(typed.output);
+  if (!typed.precision.empty() && !(format && format->hasPrecisions))
+    throw CLI::ValidationError("--precision", "only a cache, .rgc, has one");
+  const std::string extension = typed.output.extension().string();
+  if (typed.clips && extension != ".usda") throw CLI::ValidationError("--clips", "only a .usda has clips");
+  if ((!typed.values.empty() || typed.tipWidth) && !(format && format->isUsd))
+    throw CLI::ValidationError(typed.tipWidth ? "--tip-width" : "--usd-values",
+                               "only " + animationEndings(&AnimationFormat::isUsd, "and") + " have it");
+  if (has(typed, "velocities") && extension == ".usda" && !typed.clips)
+    throw CLI::ValidationError("--usd-values", "velocities are written into .usdc and clips only");
+}
+
+UsdExtras usdExtras(const Typed& typed, double metresPerUnit) {
+  UsdExtras extras{
+      .ids = has(typed, "id"), .velocities = has(typed, "velocities"), .clipFrames = typed.clips.value_or(0)};
+  if (typed.tipWidth) extras.tipDiameter = static_cast<float>(*typed.tipWidth / metresPerUnit);
+  return extras;
+}
+
+// Which frames, checked against those there are.
+Result<FrameRange> chooseFrames(const Typed& typed, const AnimationReader& source) {
+  const int count = source.frameCount();
+  if (count == 0) return Error{fmt::format("{} holds no frame", typed.input.string())};
+  FrameRange range{1, count};
+  if (typed.frame) range = {*typed.frame, *typed.frame};
+  if (!typed.frames.empty()) range = *parseFrameRange(typed.frames);
+  if (range.last > count)
+    return Error{
+        fmt::format("{} has frames 1 to {}; there is no frame {}", typed.input.string(), count, range.last)};
+  return range;
+}
+
+// A writer begins with PATH.partial; that must not be what is read.
+Status checkOutput(const Typed& typed) {
+  std::error_code code;
+  for (const char* suffix : {"", ".partial"}) {
+    const std::filesystem::path taken = typed.output.string() + suffix;
+    if (std::filesystem::equivalent(taken, typed.input, code))
+      return Error{fmt::format("writing {} would overwrite {} while it is read; choose another name",
+                               typed.output.string(), typed.input.string())};
+  }
+  const std::filesystem::path partial = typed.output.string() + ".partial";
+  if (!typed.overwrite && std::filesystem::exists(partial, code)) {
+    return Error{
+        fmt::format(
+            "{} holds frames that something left which did not end; choose another name, or begin anew with "
+            "--overwrite",
+            partial.string()),
+        Fault::output};
+  }
+  return {};
+}
+
+std::string sizeText(std::uint64_t bytes) {
+  return bytes < 1'000'000 ? fmt::format("{} bytes", bytes)
+                           : fmt::format("{:.1f} MB", 1e-6 * static_cast<double>(bytes));
+}
+
+std::string boundText(double bound) {
+  return bound == 0 ? "exact" : fmt::format("off by at most {:.3g} mm", 1000 * bound);
+}
+
+// Of all points of all frames.
+double bytesPerPoint(const AnimationReader& source) {
+  const double points = static_cast<double>(source.groom().firstPoint.back()) * source.frameCount();
+  return points > 0 ? static_cast<double>(source.byteCount()) / points : 0;
+}
+
+void printInfo(const Typed& typed, const AnimationReader& source) {
+  const CacheHeader& header = source.header();
+  const std::size_t strands = source.groom().strandCount(), particles = source.groom().firstPoint.back();
+  const char* up = header.up == UpAxis::z ? "Z" : "Y";
+  const double width = header.diameter * header.metresPerUnit;
+  if (typed.json) {
+    printJson({{"format", source.formatKey()},
+               {"precision", nameOf(header.precision)},
+               {"finished", source.isFinished()},
+               {"frames", source.frameCount()},
+               {"strands", strands},
+               {"particles", particles},
+               {"fps", header.framesPerSecond},
+               {"metres_per_unit", header.metresPerUnit},
+               {"up", up},
+               {"width_m", width},
+               {"bytes", source.byteCount()},
+               {"bytes_per_point", bytesPerPoint(source)},
+               {"error_bound_m", source.errorBound()},
+               {"warnings", source.warnings()}});
+    return;
+  }
+  print("{}: {}, {}\n", typed.input.string(),
+        source.isCache() ? "cache, " + nameOf(header.precision) : source.formatName(),
+        source.isFinished() ? "finished" : "not finished");
+  print("  frames        {} at {} a second, {:.3g} s\n", source.frameCount(), header.framesPerSecond,
+        source.frameCount() / header.framesPerSecond);
+  print("  strands       {}, {} particles, {:.3g} mm wide\n", strands, particles, 1000 * width);
+  print("  unit          {} m, {} up\n", header.metresPerUnit, up);
+  print("  size          {}, {:.2f} bytes a point\n", sizeText(source.byteCount()), bytesPerPoint(source));
+  print("  points        {}\n", boundText(source.errorBound()));
+}
+
+void printOutcome(const Typed& typed, const Groom& groom, const std::vector<std::string>& warnings,
+                  const ConvertOutcome& outcome, int frameCount) {
+  const std::size_t strands = groom.strandCount(), particles = groom.firstPoint.back();
+  if (typed.json) {
+    nlohmann::ordered_json json{{"frames", frameCount},
+                                {"strands", strands},
+                                {"particles", particles},
+                                {"bytes", outcome.byteCount},
+                                {"error_bound_m", outcome.errorBound},
+                                {"warnings", warnings},
+                                {"outputs", nlohmann::json::array()}};
+    for (const auto& path : outcome.outputs) json["outputs"].push_back(path.string());
+    printJson(json);
+  } else if (!typed.quiet) {
+    print("{} frame{} of {} strand{}, {} particles: {}{}, {}, {}\n", frameCount, frameCount == 1 ? "" : "s",
+          strands, strands == 1 ? "" : "s", particles, outcome.outputs.front().string(),
+          outcome.outputs.size() > 1 ? " to " + outcome.outputs.back().filename().string() : "",
+          sizeText(outcome.byteCount), boundText(outcome.errorBound));
+  }
+}
+
+// A groom is one pose: another program's, made into what Ringlet writes.
+Status runGroomConvert(const Typed& typed) {
+  if (typed.info)
+    return Error{fmt::format("{} is a groom; `ringlet info` says what is in it", typed.input.string())};
+  auto loaded = readGroom(typed.input, readingOf(typed.reading, typed.up == "Z"));
+  if (!loaded) return loaded.error();
+  if (typed.metresPerUnit) loaded->groom.metresPerUnit = *typed.metresPerUnit;
+  for (const std::string& warning : loaded->warnings) say("ringlet convert: warning: {}\n", warning);
+  const auto hair = fullHairOf(typed, loaded->groom, loaded->groom.metresPerUnit);
+  if (!hair) return hair.error();
+  const Groom& groom = *hair ? (*hair)->groom() : loaded->groom;
+  if (Status written = writeGroom(typed.output, groom); !written) return written;
+  for (std::string& lost : lostIn(typed.output, loaded->groom.metresPerUnit, typed.up == "Z")) {
+    say("ringlet convert: warning: {}\n", lost);
+    loaded->warnings.push_back(std::move(lost));
+  }
+  std::error_code code;
+  const std::uint64_t bytes = std::filesystem::file_size(typed.output, code);
+  if (typed.json) {
+    printJson({{"frames", 1},
+               {"strands", groom.strandCount()},
+               {"particles", groom.points.size()},
+               {"bytes", bytes},
+               {"error_bound_m", 0},
+               {"warnings", loaded->warnings},
+               {"outputs", {typed.output.string()}}});
+  } else if (!typed.quiet) {
+    print("a groom of {} strand{}, {} particles, in units of {} m: {}, {}\n", groom.strandCount(),
+          groom.strandCount() == 1 ? "" : "s", groom.points.size(), groom.metresPerUnit,
+          typed.output.string(), sizeText(bytes));
+  }
+  return {};
+}
+
+// What files of frames do not hold of an animation.
+std::vector<std::string> lostOf(const Typed& typed, const CacheHeader& header) {
+  const ConvertTo kind = *kindOf(typed);
+  if (kind != ConvertTo::frame && kind != ConvertTo::frameSequence) return {};
+  return lostIn(typed.output, header.metresPerUnit, header.up == UpAxis::z);
+}
+
+Status runConvert(const Typed& typed) {
+  auto source = AnimationReader::open(typed.input);
+  if (!source) return source.error();
+  for (const std::string& warning : source->warnings()) say("ringlet convert: warning: {}\n", warning);
+  if (typed.info) {
+    printInfo(typed, *source);
+    return {};
+  }
+  if (!source->isFinished())
+    say("ringlet convert: warning: {} was not finished; it has {} frames\n", typed.input.string(),
+        source->frameCount());
+  auto range = chooseFrames(typed, *source);
+  if (!range) return range.error();
+  if (Status free = checkOutput(typed); !free) return free;
+  const auto scene = sceneOf(typed);
+  if (!scene) return scene.error();
+  const auto cuts = CutList::beside(typed.input);
+  if (!cuts) return cuts.error();
+  auto hair = fullHairOf(typed, source->header().metresPerUnit, *cuts, *scene);
+  if (!hair) return hair.error();
+  const auto outcome = convert(
+      *source,
+      {.to = *kindOf(typed),
+       .output = typed.output,
+       .firstFrame = range->first,
+       .lastFrame = range->last,
+       .precision = typed.precision.empty() ? source->header().precision : precisionByName(typed.precision),
+       .usd = usdExtras(typed, source->header().metresPerUnit),
+       .hair = *hair ? &**hair : nullptr,
+       .scene = *scene ? &**scene : nullptr,
+       .cuts = *hair ? (*hair)->cutsOfHairs(*cuts) : *cuts,
+       .showProgress = !typed.quiet});
+  if (!outcome) return outcome.error();
+  const Groom& written = *hair ? (*hair)->groom() : source->groom();
+  std::vector<std::string> warnings = source->warnings();
+  for (std::string& lost : lostOf(typed, source->header())) {
+    say("ringlet convert: warning: {}\n", lost);
+    warnings.push_back(std::move(lost));
+  }
+  printOutcome(typed, written, warnings, *outcome, range->last - range->first + 1);
+  return {};
+}
+
+int run(const Typed& typed) {
+  const bool isGroom = isGroomFile(typed.input) && !holdsAnimation(typed.input);
+  if (isGroom && (typed.frame || !typed.frames.empty() || !typed.precision.empty()))
+    throw CLI::ValidationError("IN", "a groom has no frames and no precision");
+  if (isGroom && !typed.info && typed.output.empty())
+    throw CLI::ValidationError("OUT", "name the file to write, .hair, .obj or .ply");
+  if (isGroom && (!typed.groom.empty() || !typed.scene.empty()))
+    throw CLI::ValidationError(typed.groom.empty() ? "--scene" : "--groom",
+                               "IN is a groom itself; only the hairs of an animation need one");
+  if (!isGroom && (typed.up || typed.metresPerUnit || (typed.reading.isMade() && typed.groom.empty())))
+    throw CLI::ValidationError(
+        "IN",
+        "is an animation, which says its unit and axis itself; --unit, --up, --root-end and "
+        "--points-per-strand are of grooms");
+  if (!isGroom) checkOptions(typed);
+  const Status done = isGroom ? runGroomConvert(typed) : runConvert(typed);
+  if (done) return kExitFine;
+  say("ringlet convert: {}\n", done.error().message);
+  return exitCodeOf(done.error());
+}
+
+}  // namespace
+
+void addConvertCommand(CLI::App& app, int& exitCode) {
+  auto typed = std::make_shared<Typed>();
+  CLI::App* command =
+      app.add_subcommand("convert", "Makes another file of an animation, or says what is in it");
+  command->footer(kExample);
+  command
+      ->add_option("IN", typed->input,
+                   "An animation: hair.usda, hair.usdc or hair.rgc, or their .partial; or a groom")
+      ->required()
+      ->type_name("FILE");
+  command
+      ->add_option(
+          "OUT", typed->output,
+          fmt::format(
+              "File to write: {}, .png (six frames side by side), .obj or .ply (name.0001.obj and so on); or "
+              "a folder for .obj files",
+              animationList(true)))
+      ->type_name("PATH");
+  command->add_option("--frames", typed->frames, "First and last frame, from 1, or one (default: all)")
+      ->check(isFrameRange())
+      ->type_name("A:B");
+  command->add_option("--frame", typed->frame, "One frame, from 1; an .obj then has the name of OUT")
+      ->check(wholeBetween(1, 1'000'000'000))
+      ->type_name("N");
+  command
+      ->add_option("--precision", typed->precision,
+                   "Of an .rgc: float32 (every bit) or 16bit (default: that of IN; of USD float32)")
+      ->check(oneOf(precisionNames()))
+      ->type_name("PRECISION");
+  command
+      ->add_option(
+          "--usd-values", typed->values,
+          "What .usda and .usdc have beside points and widths, separated by commas: id (a number of each "
+          "strand), velocities (.usdc and clips only)")
+      ->delimiter(',')
+      ->check(oneOf({"id", "velocities"}))
+      ->type_name("LIST");
+  command
+      ->add_option(
+          "--tip-width", typed->tipWidth,
+          "Diameter at the tip in .usda and .usdc, metres: strands are evenly thinner from the root on")
+      ->check(between(1e-9, 1))
+      ->type_name("METRES");
+  command
+      ->add_option(
+          "--clips", typed->clips,
+          "Frames of a value clip: OUT.usda is then a small file beside OUT_clips/, which has them in parts")
+      ->check(wholeBetween(1, 1'000'000))
+      ->type_name("N");
+  command
+      ->add_option(
+          "--hairs", typed->hairs,
+          "Hairs to write in place of the strands of IN, which they follow: about as many strands are what "
+          "one sees as locks")
+      ->check(wholeBetween(1, 10'000'000))
+      ->type_name("N");
+  addHairLookOptions(*command, typed->look);
+  command
+      ->add_option("--unit", typed->metresPerUnit,
+                   "Of a groom: metres per unit of its file (default: what a USD file states, else 0.01)")
+      ->check(between(1e-6, 1000))
+      ->type_name("METRES");
+  command
+      ->add_option(
+          "--up", typed->up,
+          "Of a groom: the axis that is to point up, to which a USD file is turned, Y or Z (default Y)")
+      ->check(oneOf({"Y", "Z"}))
+      ->type_name("AXIS");
+  addGroomOptions(*command, typed->reading);
+  command->add_option("--groom", typed->groom, "The groom that IN was simulated from; for --hairs")
+      ->type_name("FILE");
+  command
+      ->add_option("--scene", typed->scene,
+                   "The scene that IN was simulated from: its groom, and its bodies, which hairs stay out of")
+      ->type_name("FILE");
+  addConfinedOption(*command, typed->reach);
+  command->add_flag("--overwrite", typed->overwrite,
+                    "Begin anew where OUT.partial holds frames of something that did not end");
+  command->add_flag("--info", typed->info, "Say what is in IN, and write nothing");
+  command->add_flag("--json", typed->json, "Print one JSON object instead of the summary");
+  command->add_flag("--quiet", typed->quiet, "No progress bar and no summary");
+  command->callback([typed, &exitCode] { exitCode = run(*typed); });
+}
+
+}  // namespace ringlet::program

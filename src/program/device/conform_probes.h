@@ -1,0 +1,15 @@
+// Tiny kernels (shaders/kernels/probe_*.comp) that hold a driver against what Ringlet's kernels rely on:
+// plain integer formulas, compared bit by bit.
+#pragma once
+
+#include <functional>
+
+#include "program/device/conform_check.h"
+#include "ringlet/solver/compute_device.h"
+
+namespace ringlet::program {
+
+/// Runs every probe and hands each line to `tell` when it is there.
+void runProbes(const ComputeDevice& device, const std::function<void(const Check&)>& tell);
+
+}  // namespace ringlet::program

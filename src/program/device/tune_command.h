@@ -1,0 +1,11 @@
+// `ringlet tune`: which strand shapes are fastest on a device, measured and remembered.
+#pragma once
+
+#include "program/cli/cli_fwd.h"
+
+namespace ringlet::program {
+
+/// Adds the subcommand; when it runs, `exitCode` receives the exit status of the program.
+void addTuneCommand(CLI::App& app, int& exitCode);
+
+}  // namespace ringlet::program

@@ -1,0 +1,148 @@
+// Implements measure_command.h.
+#include "program/measure/measure_command.h"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <memory>
+#include <string>
+
+#include "program/cli/command_line.h"
+#include "program/cli/exit_codes.h"
+#include "program/cli/standard_error.h"
+#include "program/cli/standard_output.h"
+#include "program/measure/measure_plot.h"
+#include "program/measure/measure_report.h"
+#include "program/measure/measure_run.h"
+
+namespace ringlet::program {
+namespace {
+
+constexpr const char* kExample =
+    "Examples:\n"
+    "  ringlet measure groom.obj                     the curls of a groom\n"
+    "  ringlet measure groom.obj settled.obj         what is left of them in another pose\n"
+    "  ringlet measure groom.obj out --json          and in what `ringlet simulate` wrote\n"
+    "  ringlet measure groom.obj out --against settled.obj\n"
+    "                                                and how far that is from one more pose\n"
+    "  ringlet measure groom.obj auto --against explicit --without off\n"
+    "                                                three runs: do contacts let hair move as they should?\n"
+    "  ringlet measure groom.obj out --plot out.svg --over softer --over stiffer\n"
+    "                                                three motions of it over each other\n"
+    "\n"
+    "A USD file (.usda, .usdc, .usd, .usdz) states its unit and its up axis; --unit and --up go before "
+    "them.\n"
+    "OTHER is a groom with the same strands, a folder that `ringlet simulate` wrote, or its hair.usda or\n"
+    "hair.rgc.\n"
+    "A hair.usda may be the groom as well: its first frame is.\n"
+    "In an animation the groom counts as the frame before the first; tables show the last frame.\n"
+    "Everything is seen from the head: each strand from its root, turned as the roots together turn (one\n"
+    "root, or roots on a line, cannot show every turn; the head then turns as little as they allow).\n"
+    "Bounce (of the core's length), sway and settling are those after the head last drove the hair.\n"
+    "--against compares that pose, or the last frame, with one more, in REST's unit. With their roots\n"
+    "put together it says how far particles and cores (root mean square) and tips are apart, the angle\n"
+    "between the cores' chords, and by how much turns and mean radius are more. Of two animations it also\n"
+    "compares all frames that both have. Way: how far tips are from where they are at rest, seen from\n"
+    "the head, and which share that is of the way there; tips: how far they are apart, as a share of the\n"
+    "way there. --without is the same motion without contacts. Kept: of the overlap beyond rest that\n"
+    "--against prevents in the worst frame of that, the share that OTHER prevents; hairs are as thick as\n"
+    "contacts have them unasked. A stiff volume keeps all and moves little, so look at all three.\n"
+    "--plot draws over time, of OTHER and of each --over: mean droop, core elongation and turns, kinetic\n"
+    "energy of hair of 10 mg/m, and how far hairs are in each other beyond rest, the deepest and the mean,\n"
+    "as shares of their reach (1: two centres in one place); hairs are as thick as contacts have them\n"
+    "unasked. What is zero all the while is left out. It needs gnuplot.\n"
+    "\n"
+    "--json keys: strands particles frames; over strands of the last frame, means: droop_mm\n"
+    "core_elongation, and of the curled: turns mean_radius_mm; handedness_kept: by all;\n"
+    "tip_rotation_deg: the largest; over all frames, the largest: arc_drift max_edge_stretch worst\n"
+    "{droop_mm core_elongation tip_rotation_deg}; of the motion: bounce_hz sway_hz (means) settle_s (the\n"
+    "last to settle) energy_ratio (last second over peak); spread {KEY: [mean, min, max]} of the last\n"
+    "frame; against {KEY: [mean, min, max]} with --against: particles tip core (shares of the arc length)\n"
+    "direction_deg turns radius (shares of those at rest); against_motion, of two animations: frames way_mm\n"
+    "against_way_mm way tips kept, and each {way_mm against_way_mm tips} a frame; per_strand with "
+    "--strands;\n"
+    "series with --plot:\n"
+    "seconds droop_mm core_elongation turns energy_uj deepest_contact mean_contact, a number a frame. null: "
+    "nothing to\n"
+    "measure; so are limited_share and velocity_residual, which only a run knows (`ringlet simulate "
+    "--json`,\n"
+    "`ringlet scene --json`).\n"
+    "\n"
+    "Exit status: 0 done, 1 something failed, 2 wrong usage.";
+
+// The command line as typed.
+struct Typed {
+  MeasurePlan plan;
+  bool json = false, strands = false;
+};
+
+int run(const Typed& typed) {
+  auto measured = runMeasure(typed.plan);
+  if (!measured) {
+    say("ringlet measure: {}\n", measured.error().message);
+    return exitCodeOf(measured.error());
+  }
+  if (typed.json) {
+    printJson(measuredJson(*measured, typed.strands));
+  } else {
+    print("{}{}", measuredText(*measured), typed.strands ? strandsText(*measured) : "");
+  }
+  return kExitFine;
+}
+
+}  // namespace
+
+void addMeasureCommand(CLI::App& app, int& exitCode) {
+  auto typed = std::make_shared<Typed>();
+  CLI::App* command = app.add_subcommand("measure", "Measures the curl of a groom, and what became of it");
+  command->footer(kExample);
+  command
+      ->add_option("REST", typed->plan.rest,
+                   "The groom at rest: a .hair, .obj, .usd, .tfx, .ply, .data or .bin file")
+      ->required()
+      ->type_name("FILE");
+  command
+      ->add_option("OTHER", typed->plan.other,
+                   "What became of it: a pose (a groom's file), a folder, a hair.usda or hair.rgc")
+      ->type_name("PATH");
+  command
+      ->add_option(
+          "--unit", typed->plan.metresPerUnit,
+          "Metres per unit of the files (default: the animation's, else what a USD file states, else 0.01: "
+          "centimetres)")
+      ->check(between(1e-6, 1000))
+      ->type_name("METRES");
+  command->add_option("--up", typed->plan.up, "The files' up axis, Y or Z (default: the animation's, else Y)")
+      ->check(oneOf({"Y", "Z"}))
+      ->type_name("AXIS");
+  addPointsOption(*command, typed->plan.reading);
+  command
+      ->add_option(
+          "--against", typed->plan.against,
+          "Another pose of these strands (a groom's file) or what another run wrote, to compare with")
+      ->type_name("PATH");
+  command
+      ->add_option("--without", typed->plan.without,
+                   "What a run without contacts wrote, to say which share of overlap is kept apart")
+      ->needs("--against")
+      ->type_name("PATH");
+  CLI::Option* plotted = command
+                             ->add_option("--plot", typed->plan.plot,
+                                          "Draws what changes over time into a .svg or .png (needs gnuplot)")
+                             ->check(CLI::Validator(
+                                 [](const std::string& path) {
+                                   return canPlotInto(path) ? "" : "a plot is a .svg or .png file";
+                                 },
+                                 ""))
+                             ->type_name("FILE");
+  command->add_option("--over", typed->plan.over, "One more run of REST in the plot; may be repeated")
+      ->needs(plotted)
+      ->type_name("PATH")
+      ->allow_extra_args(false);
+  command->add_flag("--strands", typed->strands, "Every strand by itself too");
+  command->add_flag("--json", typed->json, "Print one JSON object instead of tables");
+  command->callback([typed, &exitCode] { exitCode = run(*typed); });
+}
+
+}  // namespace ringlet::program

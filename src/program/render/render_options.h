@@ -1,0 +1,41 @@
+// The options of `ringlet render`, and what they ask for.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "program/cli/cli_fwd.h"
+#include "program/cli/groom_options.h"
+#include "ringlet/pictures/hair_look.h"
+#include "ringlet/pictures/render_animation.h"
+#include "ringlet/scenes/scene_file.h"
+
+namespace ringlet::program {
+
+/// As they were typed.
+struct RenderOptions {
+  std::filesystem::path input, output, groom, scene, against;
+  std::string frames, size = "960x540", colour = "auburn", up = "Y", camera, ground, format = "png", device;
+  std::optional<int> hairs;
+  HairLook look;
+  GroomChoice reading;
+  SceneReach reach = SceneReach::anywhere;
+  std::optional<double> metresPerUnit, width, melanin, most;
+  double redness = 0.3, azimuth = 35, elevation = 5, distance = 1, orbit = 0;
+  int samples = 4, blur = 1;
+  bool noBodies = false, noLegend = false, json = false, quiet = false;
+};
+
+void addRenderOptions(CLI::App& command, RenderOptions& options);
+
+/// Throws CLI::ValidationError for what makes no sense together.
+void checkRenderOptions(const RenderOptions& options);
+
+/// All but what must be read: the scene, its camera, the strands at rest.
+RenderPlan renderPlanOf(const RenderOptions& options);
+
+/// Whether IN is a groom, and no animation.
+bool isGroomToRender(const std::filesystem::path& input);
+
+}  // namespace ringlet::program

@@ -1,0 +1,453 @@
+// Implements scene_command.h: options to a BuiltinScene, which is stepped as `ringlet simulate` steps and
+// measured as `ringlet measure` measures.
+#include "program/simulate/scene_command.h"
+#include "program/cli/standard_error.h"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "program/cli/command_line.h"
+#include "program/cli/contact_options.h"
+#include "program/cli/exit_codes.h"
+#include "program/cli/standard_output.h"
+#include "program/convert/material_command.h"
+#include "program/measure/measure_report.h"
+#include "program/simulate/run_report.h"
+#include "program/simulate/simulate_run.h"
+#include "ringlet/base/whole_file.h"
+#include "ringlet/groom/obj_file.h"
+#include "ringlet/measure/frame_turn.h"
+#include "ringlet/measure/motion_measure.h"
+#include "ringlet/scenes/builtin_scene.h"
+#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/scene_parts.h"
+
+namespace ringlet::program {
+namespace {
+
+constexpr const char* kExample =
+    "Examples:\n"
+    "  ringlet scene --list\n"
+    "  ringlet scene hanging_curl --preload 0 --particles 128\n"
+    "  ringlet scene walk_cycle --frames-on raw --json -o out\n"
+    "  ringlet scene bounce --bounce 2\n"
+    "  ringlet scene curtain --contacts off\n"
+    "  ringlet scene flip --prune 8\n"
+    "  ringlet measure out/groom.obj out            measures what was written once more\n"
+    "  ringlet scene flip --write flip.toml         then edit it and: ringlet simulate flip.toml -o out\n"
+    "  ringlet scene --keys                         all that a scene file may say\n"
+    "\n"
+    "Every frame is measured, the groom at rest counting as the one before the first. A scene is stepped as "
+    "often as\n"
+    "it says, however many steps its hair wants; a warning says if that is more.\n"
+    "\n"
+    "DIR receives groom.obj (the groom at rest), hair.usda, last.obj and sheet.png, in centimetres, Y up. Of "
+    "these\n"
+    "`ringlet measure` finds the same numbers, but for what files do not hold: steps between frames, and the "
+    "turning\n"
+    "of a head with one strand (walk_cycle).\n"
+    "\n"
+    "--json prints the keys of `simulate` and of `measure` together; max_edge_stretch is that of every step. "
+    "Beside\n"
+    "them: scene seconds preload core frames_on frame_turn_deg (twist_jump: the largest turn of a strand "
+    "frame in one\n"
+    "step, for which the scene runs twice; null elsewhere). With --list: scenes, of each name summary "
+    "seconds preload.\nWith --keys: keys, of each table key type unit range default only_with effect. With "
+    "--write: scene outputs.\n";
+constexpr const char* kExitHelp =
+    "\n"
+    "Scenes of hair that meets hair (two_curls, curtain, pile, fall, flip, head, walk_head) measure contacts "
+    "also where these are\n"
+    "off; others where they are on. Steps are then\n"
+    "measured one by one. Their radius is 5.5 mm and gaps are filled, but on head, which has the defaults\n"
+    "of simulate.\n"
+    "\n"
+    "Exit status: as for simulate.";
+
+// The command line as typed.
+struct Typed {
+  std::string name;
+  SceneOptions scene;
+  DialChoice dials;
+  ContactChoice contacts;
+  SimulateOptions run;
+  RunNames names{.material = "scene"};
+  std::string core = "on", framesOn = "smoothed";
+  std::filesystem::path file;  // to write the scene to
+  std::optional<int> subgroup;
+  bool list = false, keys = false, untuned = false, json = false, quiet = false, overwrite = false;
+};
+
+// What a scene measures beside the run's own numbers.
+struct SceneNumbers {
+  CurlNumbers curl;
+  std::optional<double> residual;   // of the velocity solve
+  std::optional<double> frameTurn;  // the largest in one step [degrees]
+};
+
+void printList(bool asJson) {
+  nlohmann::ordered_json scenes = nlohmann::json::array();
+  for (const std::string& name : sceneNames()) {
+    const BuiltinScene scene = *makeScene(name);
+    const double preload = scene.settings.gravityPreload;
+    if (!asJson) print("{:<14}{} ({} s, preload {})\n", name, scene.summary, scene.seconds, preload);
+    scenes.push_back(
+        {{"name", name}, {"summary", scene.summary}, {"seconds", scene.seconds}, {"preload", preload}});
+  }
+  if (asJson) printJson({{"scenes", scenes}});
+}
+
+// What was measured, a line a subject, below the lines of the run.
+std::string measureText(const SceneNumbers& numbers, const Settings& settings) {
+  const CurlNumbers& curl = numbers.curl;
+  std::string text = fmt::format("  droop         {} mm at the end, {} mm at the worst frame{}\n",
+                                 shown(1000 * curl.droop, 4), shown(1000 * curl.worstDroop, 4),
+                                 riseNote(std::min(curl.droop, curl.worstDroop)));
+  text += fmt::format("  core          {} x its length at rest, {} x at the worst frame\n",
+                      shown(curl.coreElongation, 4), shown(curl.worstCoreElongation, 4));
+  text += curl.meanRadius == 0
+              ? fmt::format("  curl          none at rest, arc drift {:.2e}\n", curl.arcDrift)
+              : fmt::format("  curl          {} turns of radius {} mm, hand {}, arc drift {:.2e}\n",
+                            shown(curl.turns, 3), shown(1000 * curl.meanRadius, 3),
+                            curl.handednessKept ? "kept" : "not kept", curl.arcDrift);
+  text += fmt::format("  tip           turned by {} degrees, {} at the worst frame\n",
+                      shown(curl.tipRotation, 2), shown(curl.worstTipRotation, 2));
+  text += fmt::format(
+      "  bounce        {}, {}, energy left of its peak {:.3g}\n",
+      curl.bounceHz ? fmt::format("{} Hz", shown(curl.bounceHz, 2)) : "none measured",
+      curl.settleSeconds ? fmt::format("settled after {} s", shown(curl.settleSeconds, 2)) : "not settled",
+      curl.energyRatio.value_or(0));
+  if (numbers.residual)
+    text += fmt::format("  residual      {:.2e} of the velocity solve\n", *numbers.residual);
+  if (numbers.frameTurn) {
+    text += fmt::format("  frames        turned by at most {} degrees in a step of 1/{:.6g} s\n",
+                        shown(numbers.frameTurn, 2), 1 / settings.stepSeconds());
+  }
+  return text;
+}
+
+// Every key of a scene file, table by table.
+void printKeys(bool asJson) {
+  nlohmann::ordered_json keys = nlohmann::json::array();
+  std::string table;
+  if (!asJson)
+    print(
+        "A scene file is TOML; [[...]] may stand several times. Paths are relative to the file. Beside what\n"
+        "stands here [material] takes all keys of a material file: `ringlet material --list`.\n");
+  for (const SceneKey& key : sceneKeys()) {
+    keys.push_back({{"table", key.table},
+                    {"key", key.key},
+                    {"type", key.type},
+                    {"unit", key.unit},
+                    {"range", key.range},
+                    {"default", key.standard},
+                    {"only_with", key.onlyWith},
+                    {"effect", key.effect}});
+    if (asJson) continue;
+    if (key.table != table) {
+      const bool isList = key.table == "body" || key.table == "camera" || key.table == "map" ||
+                          key.table == "key" || key.table == "motion.key";
+      print("\n{}\n", isList ? "[[" + key.table + "]]" : "[" + key.table + "]");
+    }
+    table = key.table;
+    // The unit stands in the range, where there is one.
+    const std::string unit = key.range.empty() && !key.unit.empty() ? " " + key.unit : "";
+    print("  {:<26} {}\n  {:<26} {}{}{}{}; default {}.{}\n", key.key, key.effect, "",
+          static_cast<char>(std::toupper(static_cast<unsigned char>(key.type[0]))), key.type.substr(1), unit,
+          key.range.empty() ? "" : " " + key.range, key.standard,
+          key.onlyWith.empty() ? "" : " Only with " + key.onlyWith + ".");
+  }
+  if (asJson) printJson({{"keys", keys}});
+}
+
+Error inScene(const Typed& typed, const Error& cause) {
+  return Error{fmt::format("{}: {}", typed.name, cause.message), cause.fault};
+}
+
+// The groom at rest beside the animation, so that `ringlet measure DIR/groom.obj DIR` works.
+Status writeGroom(const BuiltinScene& scene, const SimulateOptions& options, RunOutcome& outcome) {
+  if (outcome.outputs.empty()) return {};
+  const std::filesystem::path path = options.folder / "groom.obj";
+  if (Status written = writeObj(path, scene.groom, scene.groom.points); !written) return written;
+  outcome.outputs.push_back(path);
+  return {};
+}
+
+// The largest turn of a strand frame in one outer step: the scene once more, with every step a frame of its
+// own. The steps are the same. Nothing if Ctrl-C ended it.
+Result<std::optional<double>> measureFrameTurn(const BuiltinScene& scene, SimulateOptions options) {
+  LoadedScene steps = scene;
+  steps.settings = stepByStep(scene.settings);
+  steps.frameCount *= scene.settings.stepsPerFrame;
+  options.measuresContacts = false;
+  options.onRanks = false;  // the others have left
+  options.folder.clear();
+  options.measuresResidual = false;
+
+  FrameTurn turn(scene.groom, scene.material);
+  turn.look(scene.groom.points, scene.groom.metresPerUnit);
+  const auto look = [&](std::span<const Vec3f> points, const HeadPose& head) -> Status {
+    turn.look(points, scene.groom.metresPerUnit, head.rotation);
+    return {};
+  };
+  const auto outcome = simulate(steps, options, look);
+  if (!outcome) return outcome.error();
+  return outcome->interrupted ? std::nullopt : std::optional(turn.largest());
+}
+
+nlohmann::ordered_json asJson(const Typed& typed, const BuiltinScene& scene, const RunOutcome& outcome,
+                              const SceneNumbers& numbers) {
+  nlohmann::ordered_json json{{"scene", scene.name},
+                              {"seconds", outcome.frameCount / scene.settings.framesPerSecond},
+                              {"preload", scene.settings.gravityPreload},
+                              {"core", typed.scene.core},
+                              {"frames_on", typed.framesOn}};
+  json.update(runJson(typed.names, scene.settings, outcome));
+  // Where both know a number, the run's is that of every step.
+  nlohmann::ordered_json curl;
+  addCurlKeys(curl, numbers.curl);
+  curl.erase("max_edge_stretch");
+  json.update(curl);
+  json["frame_turn_deg"] =
+      numbers.frameTurn ? nlohmann::ordered_json(*numbers.frameTurn) : nlohmann::ordered_json();
+  return json;
+}
+
+// The scene as a file, its groom beside it.
+Result<int> writeScene(const Typed& typed, const BuiltinScene& scene) {
+  const std::filesystem::path folder = typed.file.parent_path(),
+                              groom = folder / (typed.file.stem().string() + "-groom.obj");
+  const std::string heading = fmt::format(
+      "# The built-in scene {}. {}\n# ringlet simulate {} -o out\n# What is left out keeps its default; "
+      "`ringlet scene --keys` prints every key.\n",
+      scene.name, scene.summary, typed.file.filename().string());
+  const std::string text = sceneText(sceneFileOf(scene, groom), folder, heading);
+  if (Status written = writeObj(groom, scene.groom); !written) return written.error();
+  if (Status written = writeWholeFile(typed.file, std::as_bytes(std::span<const char>(text))); !written)
+    return written.error();
+  for (const std::string& warning : scene.warnings) say("ringlet scene: warning: {}\n", warning);
+  if (typed.json) {
+    printJson({{"scene", scene.name}, {"outputs", {typed.file.string(), groom.string()}}});
+  } else if (!typed.quiet) {
+    print("{}: {} and {}\n", scene.name, typed.file.string(), groom.string());
+  }
+  return kExitFine;
+}
+
+Result<int> runScene(Typed& typed) {
+  auto scene = makeScene(typed.name, typed.scene);
+  if (!scene) return scene.error();
+  applyContactOptions(typed.contacts, scene->settings.contacts);
+  if (!typed.file.empty()) return writeScene(typed, *scene);
+  SimulateOptions& options = typed.run;
+  options.measuresContacts = scene->showsContacts || scene->settings.contacts.on;
+  options.measuresResidual = !options.onReference;
+  if (const auto exitCode = joinRun(*scene, options)) return *exitCode;
+  const Settings& settings = scene->settings;
+
+  // Measured from the groom itself on.
+  const double unit = scene->groom.metresPerUnit;
+  auto measure = MotionMeasure::make(scene->groom, {.framesPerSecond = settings.framesPerSecond,
+                                                    .lineDensity = scene->material.lineDensity});
+  if (!measure) return inScene(typed, measure.error());
+  const auto look = [&](std::span<const Vec3f> points, const HeadPose& head) {
+    return measure->addFrame(points, unit, head.rotation);
+  };
+  if (Status seen = look(scene->groom.points, scene->motion.poseAt(0)); !seen)
+    return inScene(typed, seen.error());
+  auto outcome = simulate(*scene, options, look);
+  if (!outcome) return inScene(typed, outcome.error());
+  if (Status written = writeGroom(*scene, options, *outcome); !written)
+    return inScene(typed, written.error());
+
+  SceneNumbers numbers{curlNumbers(measure->ruler(), measure->report()), outcome->velocityResidual, {}};
+  if (scene->showsFrames && !outcome->interrupted && outcome->report.nonfinite == 0) {
+    auto turn = measureFrameTurn(*scene, options);
+    if (!turn) return inScene(typed, turn.error());
+    numbers.frameTurn = *turn;
+    outcome->interrupted = !numbers.frameTurn;
+  }
+  const int exitCode = tellTroubles("scene", *outcome, scene->frameCount);
+  if (typed.json) {
+    printJson(asJson(typed, *scene, *outcome, numbers));
+  } else if (!typed.quiet) {
+    print("{}: {}\n{}{}", scene->name, scene->summary, runText(typed.names, settings, *outcome),
+          measureText(numbers, settings));
+  }
+  return exitCode;
+}
+
+int run(Typed& typed) {
+  if (typed.list || typed.keys) {
+    typed.list ? printList(typed.json) : printKeys(typed.json);
+    return kExitFine;
+  }
+  auto exitCode = runScene(typed);
+  if (exitCode) return *exitCode;
+  say("ringlet scene: {}\n", exitCode.error().message);
+  return exitCodeOf(exitCode.error());
+}
+
+// Throws CLI11's error for what makes no sense with --list or --keys: everything but --json.
+void checkList(const CLI::App& command, bool list) {
+  const std::string own = list ? "--list" : "--keys";
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() > 0 && name != own && name != "--json") {
+      throw CLI::ValidationError(name, fmt::format("{} only says which {} there are; leave this out", own,
+                                                   list ? "scenes" : "keys"));
+    }
+  }
+}
+
+// The same for --integrator paper, whose springs, frames and loads are as printed.
+void checkPaper(const Typed& typed) {
+  const char* option = typed.scene.bendStiffness             ? "--bend-stiffness"
+                       : !typed.scene.core                   ? "--core"
+                       : !typed.scene.smoothedFrames         ? "--frames-on"
+                       : typed.scene.preload.value_or(0) > 0 ? "--preload"
+                                                             : nullptr;
+  if (option) {
+    throw CLI::ValidationError(
+        option,
+        "--integrator paper takes its springs as printed: their stiffness, a core, smoothed frames and no "
+        "preload; leave this out");
+  }
+}
+
+// What one option means for another. Throws CLI11's error for what makes no sense together.
+void resolve(Typed& typed) {
+  if (typed.name.empty()) throw CLI::RequiredError("NAME (or --list)");
+  typed.scene.core = typed.core == "on";
+  typed.scene.smoothedFrames = typed.framesOn == "smoothed";
+  typed.scene.integrator = integratorNamed(typed.names.integrator);
+  if (typed.scene.integrator == Integrator::paper) checkPaper(typed);
+  checkDialOptions(typed.dials, typed.scene.integrator);
+  typed.scene.dials = turned(typed.dials, {});
+  checkContactOptions(typed.contacts);
+  typed.scene.contacts = typed.contacts.on();
+  if (!typed.contacts.on().value_or(sceneShowsContacts(typed.name)) && !sceneShowsContacts(typed.name))
+    refuseContactOptions(typed.contacts, "only with --contacts on, or in a scene of hair that meets hair");
+  typed.run.onReference = typed.names.backend == "reference";
+  if (typed.run.onReference && !typed.run.device.empty())
+    throw CLI::ValidationError("--device", "only --backend gpu has a device");
+  if (!typed.file.empty() && !typed.run.folder.empty())
+    throw CLI::ValidationError("--output", "with --write nothing is run; leave one of the two out");
+  if (typed.run.onReference && typed.untuned)
+    throw CLI::ValidationError("--untuned", "only --backend gpu is ever tuned");
+  if (typed.run.onReference && typed.subgroup)
+    throw CLI::ValidationError("--subgroup", "only --backend gpu asks for subgroups");
+  typed.run.kernel.subgroupSize = typed.subgroup.value_or(0);
+  typed.run.usesTuned = !typed.untuned;
+  typed.run.showProgress = !typed.quiet;
+  if (typed.overwrite) typed.run.leftovers = Leftovers::overwrite;
+}
+
+}  // namespace
+
+void addSceneCommand(CLI::App& app, int& exitCode) {
+  auto typed = std::make_shared<Typed>();
+  CLI::App* command =
+      app.add_subcommand("scene", "Runs a built-in scene and measures what becomes of its hair");
+  command->footer(std::string(kExample) + kContactKeysHelp + kExitHelp);
+  command->add_option("NAME", typed->name, "The scene; see --list")
+      ->check(oneOf(sceneNames()))
+      ->type_name("NAME");
+  command->add_flag("--list", typed->list, "Print the scenes and what each shows");
+  command->add_flag("--keys", typed->keys, "Print every key of a scene file");
+  command
+      ->add_option("--write", typed->file,
+                   "Do not run the scene but write it as a scene file, its groom beside it (FILE-groom.obj)")
+      ->check(endsIn({".toml"}))
+      ->type_name("FILE");
+  command->add_option("-o,--output", typed->run.folder, "Folder for the animation (default: none is written)")
+      ->type_name("DIR");
+  command->add_flag("--overwrite", typed->overwrite,
+                    "Begin anew where DIR holds files of another run, finished or not");
+
+  const char* hair = "Hair";
+  command->add_option("--particles", typed->scene.particles, "Particles of each strand (default 64)")
+      ->check(wholeBetween(2, 65536))
+      ->type_name("N")
+      ->group(hair);
+  command
+      ->add_option(
+          "--strands", typed->scene.strands,
+          "Strands side by side (default 1; release 32; flip 100, head 1500); of each swatch (curtain 50, "
+          "pile and fall 12), in whole rows")
+      ->check(wholeBetween(1, 100'000))
+      ->type_name("N")
+      ->group(hair);
+  command
+      ->add_option("--preload", typed->scene.preload,
+                   "Share of gravity balanced in the rest pose, 0 to 1 (default: the scene's; 0 for paper)")
+      ->check(between(0, 1))
+      ->type_name("P")
+      ->group(hair);
+  command
+      ->add_option(
+          "--bend-stiffness", typed->scene.bendStiffness,
+          "Stiffness that keeps the curl's shape, in weights of a strand, 0 to 1e5 (default: the scene's)")
+      ->check(between(0, 1e5))
+      ->type_name("W")
+      ->group(hair);
+  command->add_option("--core", typed->core, "Core spring on or off (default on)")
+      ->check(oneOf({"on", "off"}))
+      ->type_name("STATE")
+      ->group(hair);
+  command
+      ->add_option("--frames-on", typed->framesOn,
+                   "Strand frames on the smoothed or the raw strand (default smoothed)")
+      ->check(oneOf({"smoothed", "raw"}))
+      ->type_name("WHICH")
+      ->group(hair);
+
+  addDialOptions(command, typed->dials, "Dials");
+  addContactOptions(command, typed->contacts, "in scenes of hair that meets hair");
+
+  const char* solver = "Solver";
+  command
+      ->add_option("--integrator", typed->names.integrator, "jacobi, point_jacobi or paper (default jacobi)")
+      ->check(oneOf({std::begin(kIntegratorNames), std::end(kIntegratorNames)}))
+      ->type_name("NAME")
+      ->group(solver);
+  command
+      ->add_option("--steps-per-frame", typed->scene.stepsPerFrame,
+                   "Outer steps a frame of 1/24 s, 1 to 340 (default 8; 30 for paper)")
+      ->check(wholeBetween(1, 340))
+      ->type_name("N")
+      ->group(solver);
+  command->add_option("--seconds", typed->scene.seconds, "Length of the scene (default: its own)")
+      ->check(between(0.001, 36'000))
+      ->type_name("S")
+      ->group(solver);
+  addBackendOption(*command, typed->names.backend)->group(solver);
+  addDeviceOption(*command, typed->run.device)->group(solver);
+  command->add_option("--subgroup", typed->subgroup, kSubgroupHelp)
+      ->check(wholeBetween(1, 128))
+      ->type_name("N")
+      ->group(solver);
+  command
+      ->add_flag("--untuned", typed->untuned,
+                 "Choose the kernel's shapes by the built-in model, whatever `ringlet tune` measured")
+      ->group(solver);
+
+  command->add_flag("--json", typed->json, "Print one JSON object instead of the summary");
+  command->add_flag("--quiet", typed->quiet, "No progress bar and no summary");
+
+  command->callback([typed, command, &exitCode] {
+    typed->list || typed->keys ? checkList(*command, typed->list) : resolve(*typed);
+    exitCode = run(*typed);
+  });
+}
+
+}  // namespace ringlet::program

@@ -1,0 +1,303 @@
+// Implements view_command.h: options to a ViewPlan. The window is in src/view.
+#include "program/view/view_command.h"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "program/cli/cache_folder.h"
+#include "program/cli/command_line.h"
+#include "program/cli/confined_option.h"
+#include "program/cli/exit_codes.h"
+#include "program/cli/groom_options.h"
+#include "program/cli/hair_look_options.h"
+#include "program/cli/interruption.h"
+#include "program/cli/standard_error.h"
+#include "program/cli/standard_output.h"
+#include "program/render/picture_options.h"
+#include "program/simulate/run_report.h"
+#include "ringlet/groom/groom_file.h"
+#include "ringlet/pictures/follow_plan.h"
+#include "ringlet/pictures/picture_solids.h"
+#include "ringlet/render/look.h"
+#include "ringlet/scenes/cut_list.h"
+#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/scene_frames.h"
+#include "ringlet/scenes/scene_parts.h"
+#include "view/viewer.h"
+
+namespace ringlet::program {
+namespace {
+
+constexpr const char* kExample =
+    "Examples:\n"
+    "  ringlet view head.obj                              hair that hangs on a head\n"
+    "  ringlet view scene.toml --hairs 3000               hairs that follow the scene's strands\n"
+    "  ringlet view head.obj --set motion.kind=shake --set contacts.on=true\n"
+    "  ringlet view scene.toml --save tuned.toml          where Ctrl+S writes the numbers that were changed\n"
+    "  xvfb-run -a ringlet view head.obj --frames 100 --json    how fast it is, without a screen\n"
+    "\n"
+    "Mouse: left drag turns the camera, right or middle drag moves it, the wheel goes nearer. Ctrl + left "
+    "drag\n"
+    "moves the head, or the body under the mouse; Ctrl + right drag turns it.\n"
+    "Keys: Space plays and pauses, . steps, R resets, Ctrl+Z and Ctrl+Y undo and redo, Ctrl+S saves, F12 "
+    "takes a\n"
+    "picture, H puts the camera back, Tab hides the panel, W switches the air; B bodies, G guides, S "
+    "stretch,\n"
+    "C contacts, F frames; Ctrl+Q ends.\n"
+    "\n"
+    "--json keys: frames seconds frames_per_second cpu_ms_per_frame stages_ms (but for the first frame, "
+    "which\n"
+    "compiles kernels) scene_frames strands hairs size samples device driver device_bytes interrupted "
+    "warnings\n"
+    "outputs.\n"
+    "\n"
+    "Exit status: 0 done, 1 something failed (as where there is no display), 2 wrong usage, 4 input that "
+    "cannot be\n"
+    "read, 130 interrupted.";
+
+struct Typed {
+  std::filesystem::path input, save, pictures, widgets;
+  std::vector<std::string> changes;
+  SceneReach reach = SceneReach::anywhere;
+  std::string size = "640x480", colour = "auburn", device;
+  int frames = 0, samples = 2, hairs = 0;
+  HairLook look;
+  GroomChoice reading;
+  std::optional<std::string> up;
+  std::optional<double> metresPerUnit;
+  bool paused = false, json = false;
+};
+
+// A scene, or a groom as one.
+Result<SceneFile> sceneOf(const Typed& typed) {
+  std::vector<SceneChange> changes;
+  if (typed.metresPerUnit) changes.push_back({"groom.unit", fmt::format("{}", *typed.metresPerUnit)});
+  if (typed.up) changes.push_back({"groom.up", *typed.up});
+  if (typed.reading.rootEnd) changes.push_back({"groom.root_end", *typed.reading.rootEnd});
+  if (typed.reading.pointsPerStrand)
+    changes.push_back({"groom.points_per_strand", fmt::format("{}", *typed.reading.pointsPerStrand)});
+  for (const std::string& change : typed.changes) {
+    const std::size_t equals = change.find('=');
+    changes.push_back({change.substr(0, equals), change.substr(equals + 1)});
+  }
+  const std::filesystem::path& input = typed.input;
+  std::error_code code;
+  if (isSceneFile(input)) return readScene(input, changes, typed.reach);
+  if (std::filesystem::is_directory(input, code))
+    return Error{fmt::format("{}: is a folder; expected the file of a scene (.toml) or of a groom ({})",
+                             typed.input.string(), kGroomEndings),
+                 Fault::input};
+  if (!isGroomFile(input))
+    return Error{
+        fmt::format("{} is neither a scene (.toml) nor a groom ({})", typed.input.string(), kGroomEndings),
+        Fault::input};
+  const std::string text = fmt::format("[groom]\nfile = {}\n", nlohmann::json(input.string()).dump());
+  return parseScene(text, typed.input.string(), {}, changes);
+}
+
+#ifdef RINGLET_HAS_WINDOW
+
+// The bodies of the scene, or else a head where roots are on a ball.
+void addSolids(const LoadedScene& scene, Vec3d up, view::ViewPlan& plan) {
+  const Groom& groom = scene.groom;
+  Vec3d low{1e9, 1e9, 1e9}, high = low * -1.0;
+  std::vector<Vec3d> roots;
+  for (std::size_t s = 0; s < groom.strandCount(); ++s)
+    roots.push_back(Vec3d(groom.strand(s).front()) * groom.metresPerUnit);
+  for (const Vec3f& point : groom.points) {
+    const Vec3d p = Vec3d(point) * groom.metresPerUnit;
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const PictureSolids solids = scene.bodies.empty() ? PictureSolids::ofRoots(roots, up)
+                                                    : PictureSolids::ofScene(scene, length(high - low));
+  plan.look.solids = solids.meshes();
+  for (const std::size_t body : solids.bodies()) plan.solids.push_back({body, {}});
+  if (scene.bodies.empty())
+    for (const SolidPlace& place : solids.placesAt(0, roots, Quatd{}))
+      plan.solids.push_back({std::nullopt, place});
+}
+
+Status addHairs(const LoadedScene& scene, int hairs, const HairLook& look, view::ViewPlan& plan) {
+  const double count = hairs > 0 ? hairs : static_cast<double>(scene.groom.strandCount());
+  plan.look.width = std::min(widthOfHairs(count), view::kMostStrandWidth);
+  if (hairs == 0) return {};
+  // The head carries hairs' roots here, also where a scalp carries those of strands.
+  const auto ground = hairGroundOf(scene.hairs, nullptr, look, scene.groom.metresPerUnit);
+  if (!ground) return ground.error();
+  const double lastCut = scene.cuts.empty() ? 0 : scene.cuts.back().seconds;
+  const int frames = static_cast<int>(std::ceil(lastCut * scene.settings.framesPerSecond)) + 1;
+  auto follow = FollowPlan::make(scene.groom, scene.groom.metresPerUnit, look.of({.hairCount = hairs}),
+                                 *ground, CutList(SceneFrames(scene), frames));
+  if (!follow) return follow.error();
+  plan.look.guides = follow->guides();
+  plan.look.bodies = scene.bodies;
+  plan.look.hairs = follow->hairs();
+  return {};
+}
+
+Result<view::ViewOutcome> runScene(const Typed& typed, const SceneFile& file, LoadedScene& scene) {
+  view::ViewPlan plan;
+  plan.file = &file;
+  plan.scene = &scene;
+  plan.up = upOf(file.groom);
+  addSolids(scene, plan.up, plan);
+  if (Status added = addHairs(scene, typed.hairs, typed.look, plan); !added) return added.error();
+  const auto [width, height] = *parsePair(typed.size, 'x');
+  // Volumes of light as a preview needs them.
+  plan.look.size = {.width = width,
+                    .height = height,
+                    .side = typed.samples,
+                    .shadowCells = 64,
+                    .shadowSlices = 32,
+                    .densityCells = 16,
+                    .isPreview = true};
+  plan.look.look = *lookByName(typed.colour);
+  plan.device = typed.device;
+  plan.cacheFolder = cacheFolder();
+  plan.frameCount = typed.frames;
+  plan.startsPaused = typed.paused;
+  plan.saveTo = typed.save;
+  plan.pictures = typed.pictures;
+  plan.widgets = typed.widgets;
+  plan.wasInterrupted = wasInterrupted;
+  return view::runView(plan);
+}
+
+void printOutcome(const Typed& typed, const LoadedScene& scene, const view::ViewOutcome& outcome) {
+  if (!typed.json) return;
+  const double frames = std::max(1.0, static_cast<double>(outcome.frameCount) - 1);
+  nlohmann::ordered_json json{{"frames", outcome.frameCount},
+                              {"seconds", outcome.seconds},
+                              {"frames_per_second", outcome.seconds > 0 ? frames / outcome.seconds : 0},
+                              {"cpu_ms_per_frame", 1000 * outcome.cpuSeconds / frames},
+                              {"stages_ms", nlohmann::ordered_json::object()},
+                              {"scene_frames", outcome.sceneFrames},
+                              {"strands", scene.groom.strandCount()},
+                              {"hairs", typed.hairs},
+                              {"size", typed.size},
+                              {"samples", typed.samples},
+                              {"device", outcome.device},
+                              {"driver", outcome.driver},
+                              {"device_bytes", outcome.deviceBytes},
+                              {"interrupted", wasInterrupted()},
+                              {"warnings", outcome.warnings},
+                              {"outputs", nlohmann::json::array()}};
+  for (const auto& [stage, milliseconds] : outcome.stages) json["stages_ms"][stage] = milliseconds;
+  for (const auto& path : outcome.outputs) json["outputs"].push_back(path.string());
+  printJson(json);
+}
+
+int run(Typed typed) {
+  catchInterruption();
+  const auto fail = [](const Error& error) {
+    say("ringlet view: {}\n", error.message);
+    return exitCodeOf(error);
+  };
+  const auto file = sceneOf(typed);
+  if (!file) return fail(file.error());
+  auto scene = loadScene(*file);
+  if (!scene) return fail(scene.error());
+  for (const std::string& warning : scene->warnings) say("ringlet view: warning: {}\n", warning);
+  if (typed.save.empty()) typed.save = typed.input.stem().string() + ".view.toml";
+  const auto outcome = runScene(typed, *file, *scene);
+  if (!outcome) return fail(outcome.error());
+  for (const std::string& warning : outcome->warnings) say("ringlet view: warning: {}\n", warning);
+  for (const std::string& message : outcome->validationMessages) say("ringlet view: warning: {}\n", message);
+  printOutcome(typed, *scene, *outcome);
+  return wasInterrupted() ? kExitInterrupted : kExitFine;
+}
+
+#else
+
+int run(const Typed& typed) {
+  // What it would be given is looked at all the same.
+  if (const auto file = sceneOf(typed); !file) {
+    say("ringlet view: {}\n", file.error().message);
+    return exitCodeOf(file.error());
+  }
+  const std::string missing = RINGLET_VIEW_MISSING;
+  say("ringlet view: this program was built without a window: {}; `ringlet render` makes pictures without "
+      "one\n",
+      missing.empty() ? std::string("with -DRINGLET_BUILD_VIEW=OFF")
+                      : fmt::format("install {} (Debian) and build it again", missing));
+  return kExitFailed;
+}
+
+#endif
+
+CLI::Validator isChange() {
+  return CLI::Validator(
+      [](std::string& text) {
+        return text.find('=') != std::string::npos && text.front() != '='
+                   ? std::string()
+                   : fmt::format("must be KEY=VALUE, as contacts.on=true, not '{}'", text);
+      },
+      "");
+}
+
+}  // namespace
+
+void addViewCommand(CLI::App& app, int& exitCode) {
+  auto typed = std::make_shared<Typed>();
+  CLI::App* command =
+      app.add_subcommand("view", "Opens a window in which hair moves while its numbers change");
+  command->footer(kExample);
+  command->add_option("IN", typed->input, "A scene (.toml) or a groom")->required()->type_name("PATH");
+  command
+      ->add_option("--set", typed->changes,
+                   "A key of the scene, as its file would have it: motion.kind=shake; again for others")
+      ->check(isChange())
+      ->type_name("KEY=VALUE");
+  command
+      ->add_option("--unit", typed->metresPerUnit,
+                   "Metres per unit of the groom's file (default: what a USD file states, else 0.01)")
+      ->check(between(1e-6, 1000))
+      ->type_name("METRES");
+  command->add_option("--up", typed->up, "The groom's up axis, Y or Z (default Y)")
+      ->check(oneOf({"Y", "Z"}))
+      ->type_name("AXIS");
+  addGroomOptions(*command, typed->reading);
+  addConfinedOption(*command, typed->reach);
+  addHairLookOptions(*command, typed->look);
+  command->add_option("--hairs", typed->hairs, "Hairs that follow the strands; 0: the strands themselves")
+      ->check(wholeBetween(0, 10'000'000))
+      ->capture_default_str()
+      ->type_name("N");
+  command
+      ->add_option("--size", typed->size, "Width and height of the picture, pixels; the panel is beside it")
+      ->check(isPair('x', 64, 8192, "640x480"))
+      ->capture_default_str()
+      ->type_name("WxH");
+  addSamplesOption(*command, typed->samples);
+  addColourOption(*command, typed->colour);
+  command->add_option("--save", typed->save, "Where Ctrl+S writes the scene (default: IN's name, .view.toml)")
+      ->check(endsIn({".toml"}))
+      ->type_name("FILE");
+  command
+      ->add_option("--screenshots", typed->pictures,
+                   "Folder for the pictures of F12, and for one of the last of --frames (default: this one)")
+      ->type_name("FOLDER");
+  command
+      ->add_option("--frames", typed->frames,
+                   "Frames after which it ends, shown as fast as they come (default: when it is closed)")
+      ->check(wholeBetween(1, 1'000'000'000))
+      ->type_name("N");
+  command->add_flag("--paused", typed->paused, "Begin with hair at rest, not stepped");
+  command
+      ->add_option("--widgets", typed->widgets,
+                   "A JSON file that tells every frame where the widgets are, for scripts")
+      ->type_name("FILE");
+  addDeviceOption(*command, typed->device);
+  command->add_flag("--json", typed->json, "Print one JSON object at the end");
+  command->callback([typed, &exitCode] { exitCode = run(*typed); });
+}
+
+}  // namespace ringlet::program
