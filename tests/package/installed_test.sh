@@ -59,7 +59,7 @@ cmake -S "$here/installed_c" -B "$work/c_alone" -G "$generator" -DCMAKE_C_COMPIL
 (cd "$work" && "$work/c_alone/plain_c" && "$work/c_alone/film_in_c" curl.hair c_alone.usda) || fail "a program of a project in C alone"
 cmp "$work/c_alone.usda" "$work/cpp.usda" || fail "a project in C alone writes another animation"
 for program in "$work"/*/table_in_cpp "$work"/*/table_in_c; do
-  rm -f "$work"/table/hair.ply "$work"/table/hair.rgc
+  rm -rf "$work"/table/{hair.ply,hair.rgc,out,out_of_c}
   (cd "$work/table" && "$program") || fail "the table of library.md: $program"
   [ -s "$work/table/hair.ply" ] && [ -s "$work/table/hair.rgc" ] || fail "$program leaves no files"
 done
