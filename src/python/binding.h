@@ -43,9 +43,13 @@ class GilReleased {
   GilReleased() : state_(PyEval_SaveThread()) {}
   ~GilReleased();
   GilReleased(const GilReleased&) = delete;
+  /// Takes it for a moment: whether a signal's handler has raised something (Ctrl-C), which is to be raised
+  /// again once this has ended.
+  bool isInterrupted();
   GilReleased& operator=(const GilReleased&) = delete;
 
  private:
+  void takeBack();
   PyThreadState* state_;
 };
 

@@ -75,7 +75,16 @@ void addError(py::module_& module) {
 
 }  // namespace
 
-GilReleased::~GilReleased() {
+GilReleased::~GilReleased() { takeBack(); }
+
+bool GilReleased::isInterrupted() {
+  takeBack();
+  const bool isIt = PyErr_CheckSignals() != 0;
+  state_ = PyEval_SaveThread();
+  return isIt;
+}
+
+void GilReleased::takeBack() {
   try {
     PyEval_RestoreThread(state_);
   } catch (abi::__forced_unwind&) {

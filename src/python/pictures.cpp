@@ -69,7 +69,9 @@ RenderPlan planOf(const PictureAsked& asked) {
 
 // Draws as the plan says, with the scene's bodies and strands at rest.
 RenderOutcome draw(const Source& source, const PictureAsked& asked, RenderPlan plan) {
-  return withoutGil([&] {
+  const auto drawn = [&]() -> RenderOutcome {
+    GilReleased released;
+    plan.isStopped = [&] { return released.isInterrupted(); };
     const ComputeDevice device = asked.device ? asked.device->device : valueOf(ComputeDevice::open());
     std::optional<LoadedScene> scene;
     if (asked.scene) {
@@ -80,7 +82,10 @@ RenderOutcome draw(const Source& source, const PictureAsked& asked, RenderPlan p
     if (const auto* groom = std::get_if<GroomHandle>(&source))
       return valueOf(renderGroom((*groom)->groom(), asked.up == "Z" ? UpAxis::z : UpAxis::y, device, plan));
     return valueOf(renderAnimation(std::get<std::filesystem::path>(source), device, plan));
-  });
+  };
+  RenderOutcome outcome = drawn();
+  if (outcome.interrupted) throw py::error_already_set();
+  return outcome;
 }
 
 py::array pictureOf(const Source& source, int frame, const PictureAsked& asked) {

@@ -187,18 +187,18 @@ RunResult runScene(const SceneObject& self, const py::object& callback, const Ru
   shown.head = scene.motion.poseAt(0);
   auto run = withoutGil([&] {
     if (self.source.file && asked.folder)
-      demand(prepareRun(*self.source.file, self.source.path, origin, options));
-    return valueOf(Run::open(scene, std::move(options), hairOn(devices, kernel),
-                             {.computed = [&](const ComputedFrame& frame) { shown.take(frame); }}));
+      demandScene(prepareRun(*self.source.file, self.source.path, origin, options));
+    return sceneValueOf(Run::open(scene, std::move(options), hairOn(devices, kernel),
+                                  {.computed = [&](const ComputedFrame& frame) { shown.take(frame); }}));
   });
   for (bool more = true; more;) {
-    more = withoutGil([&] { return valueOf(run.next()); });
+    more = withoutGil([&] { return sceneValueOf(run.next()); });
     more = shown.goesOn() && more;
   }
-  RunOutcome outcome = withoutGil([&] { return valueOf(run.finish()); });
+  RunOutcome outcome = withoutGil([&] { return sceneValueOf(run.finish()); });
   shown.goesOn();
   shown.raise();
-  outcome.warnings = sentencesBy(inSceneWords, std::move(outcome.warnings));
+  outcome.warnings = inSceneWords(std::move(outcome.warnings));
   RunNames names;
   if (self.source.file) {
     names.integrator = self.source.file->simulation.integrator;

@@ -26,20 +26,13 @@ namespace ringlet::python {
 namespace {
 
 SceneObject sceneOf(std::string name, std::string summary, LoadedScene loaded, SceneSource source) {
-  loaded.warnings = sentencesBy(inSceneWords, std::move(loaded.warnings));
+  loaded.warnings = inSceneWords(std::move(loaded.warnings));
   auto groom = std::make_shared<GroomObject>(LoadedGroom{std::move(loaded.groom), {}});
   loaded.groom = {};
   return {std::move(name), std::move(summary), std::move(groom), std::move(loaded), std::move(source)};
 }
 
 SceneReach reachOf(bool isConfined) { return isConfined ? SceneReach::ownFolder : SceneReach::anywhere; }
-
-// A file of a scene and all that it names.
-template <class T>
-T sceneValueOf(Result<T> result) {
-  if (!result) throw Failure({inSceneWords(result.error().message), result.error().fault});
-  return std::move(*result);
-}
 
 SceneObject loadFile(const std::filesystem::path& path, bool isConfined) {
   return withoutGil([&] {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "python/binding.h"
 #include "ringlet/base/host_words.h"
 #include "ringlet/base/result.h"
 #include "ringlet/base/shown_text.h"
@@ -31,6 +32,18 @@ std::vector<std::string> sentencesBy(Say&& say, std::vector<std::string> sentenc
 }
 inline std::vector<std::string> inWords(std::span<const HostWord> words, std::vector<std::string> sentences) {
   return sentencesBy([&](const std::string& s) { return inHostWords(s, words); }, std::move(sentences));
+}
+inline std::vector<std::string> inSceneWords(std::vector<std::string> sentences) {
+  return sentencesBy([](const std::string& s) { return ringlet::inSceneWords(s); }, std::move(sentences));
+}
+/// As valueOf, of a scene, of all that it names and of its run.
+template <class T>
+T sceneValueOf(Result<T> result) {
+  if (!result) throw Failure(ringlet::inSceneWords(result.error()));
+  return std::move(*result);
+}
+inline void demandScene(const Status& status) {
+  if (!status) throw Failure(ringlet::inSceneWords(status.error()));
 }
 template <class T>
 Result<T> inWords(std::span<const HostWord> words, Result<T> result) {

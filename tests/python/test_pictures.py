@@ -1,4 +1,5 @@
 # Pictures are those of `ringlet render`, in files and in arrays.
+import signal
 import struct
 import zlib
 
@@ -88,3 +89,16 @@ def test_wrong_arguments_are_named(device, animation, tmp_path):
         ringlet.picture(tmp_path / "missing.usda", device=device)
     with pytest.raises(TypeError):
         ringlet.picture(3, device=device)
+
+
+def test_ctrl_c_ends_it_after_a_picture(device, animation, tmp_path):
+    scene, path = animation
+    handler = signal.signal(signal.SIGALRM, lambda number, frame: (_ for _ in ()).throw(KeyboardInterrupt))
+    signal.setitimer(signal.ITIMER_REAL, 1e-3)  # long before the first picture
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            ringlet.render(path, tmp_path / "pictures", scene=scene, device=device, **SMALL)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, handler)
+    assert len(list((tmp_path / "pictures").iterdir())) < 3

@@ -149,3 +149,11 @@ def test_wrong_arguments_are_named(device, scene, tmp_path):
     with pytest.raises(ringlet.Error, match="7 devices are more than the groom's 6 strands"):
         scene.run(devices=[device] * 7)
     assert not (tmp_path / "out").exists()
+
+
+def test_errors_name_what_a_script_can_change(device, scene, tmp_path):
+    ringlet.write_obj(tmp_path / "groom.obj", scene.groom, scene.groom.points)
+    text = '[groom]\nfile = "groom.obj"\n[output]\nfiles = ["hair.usdc"]\nprims = "groom"\n'
+    with pytest.raises(ringlet.Error, match=r'prims = "groom" of \[output\] would change') as caught:
+        ringlet.Scene.parse(text, tmp_path).run(device=device, folder=tmp_path / "out")
+    assert "--" not in str(caught.value)

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "program/device/device_choice.h"
+#include "program/device/open_device.h"
 #include "ringlet/base/result.h"
 #include "ringlet/pictures/render_animation.h"
 

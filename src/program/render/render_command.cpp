@@ -1,5 +1,5 @@
 // Implements render_command.h: what a RenderPlan needs is read, and what came of it is said. Pictures are
-// made in render_run.cpp.
+// made in pictures/render_animation.cpp.
 #include "program/render/render_command.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Implements hair_maker.h, and of simulate_run.h what ranks do.
+// Implements hair_maker.h.
 #include "program/simulate/hair_maker.h"
 
 #include <utility>

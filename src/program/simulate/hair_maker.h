@@ -1,5 +1,5 @@
 // The hair of a run, as its options say: on a device, divided among several or among ranks, or by the
-// reference.
+// reference; and taking part in such a run as a rank.
 #pragma once
 
 #include <memory>
@@ -13,5 +13,9 @@ namespace ringlet::program {
 
 /// Errors: those of the device and of the hair; more devices than strands.
 Result<std::unique_ptr<SceneHair>> makeHair(const SceneHairInput& input, const SimulateOptions& options);
+
+/// Under mpirun: takes part in the run that `simulate` begins on rank 0. An exit status: this is another
+/// rank, and the run is over.
+std::optional<int> joinRun(const LoadedScene& scene, SimulateOptions& options);
 
 }  // namespace ringlet::program

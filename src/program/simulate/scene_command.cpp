@@ -21,6 +21,7 @@
 #include "program/cli/standard_output.h"
 #include "program/convert/material_command.h"
 #include "program/measure/measure_report.h"
+#include "program/simulate/hair_maker.h"
 #include "program/simulate/run_report.h"
 #include "program/simulate/simulate_run.h"
 #include "ringlet/base/whole_file.h"

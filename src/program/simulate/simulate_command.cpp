@@ -24,6 +24,7 @@
 #include "program/cli/groom_options.h"
 #include "program/cli/standard_output.h"
 #include "program/convert/material_command.h"
+#include "program/simulate/hair_maker.h"
 #include "program/simulate/output_options.h"
 #include "program/simulate/rendered_sheet.h"
 #include "program/simulate/run_report.h"

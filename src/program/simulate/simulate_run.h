@@ -2,8 +2,6 @@
 // progress shown, and ended by Ctrl-C.
 #pragma once
 
-#include <optional>
-
 #include "program/device/device_choice.h"
 #include "ringlet/base/result.h"
 #include "ringlet/run/run.h"
@@ -24,10 +22,6 @@ struct SimulateOptions : RunOptions, DeviceChoice {
   bool tellsFrames = false;  // a line of JSON a finished frame, on standard output
   int runNumber = 0;         // of a sweep, which these lines say; 0: of none
 };
-
-/// Under mpirun: takes part in the run that `simulate` begins on rank 0. An exit status: this is another
-/// rank, and the run is over.
-std::optional<int> joinRun(const LoadedScene& scene, SimulateOptions& options);
 
 /// runScene, which Ctrl-C ends early, but well.
 Result<RunOutcome> simulate(const LoadedScene& scene, const SimulateOptions& options,

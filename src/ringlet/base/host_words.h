@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "ringlet/base/result.h"
+
 namespace ringlet {
 
 /// What a host has in place of an option of the command, as `--up Z`.
@@ -22,5 +24,6 @@ std::string inHostWords(std::string_view sentence, std::span<const HostWord> wor
 
 /// The sentence in the words of scene files, for whoever reads those.
 std::string inSceneWords(std::string_view sentence);
+inline Error inSceneWords(const Error& error) { return {inSceneWords(error.message), error.fault}; }
 
 }  // namespace ringlet

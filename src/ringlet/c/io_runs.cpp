@@ -54,8 +54,6 @@ Outcome takeFiles(const ringlet_run_options& asked, SceneOutput& output) {
   return chosen ? Outcome() : Outcome::invalid(chosen.error().message);
 }
 
-Error inSceneWords(const Error& error) { return {ringlet::inSceneWords(error.message), error.fault}; }
-
 RunOptions optionsOf(const SceneFile& file, const ringlet_run_options& asked) {
   RunOptions options = runOptionsOf(file);
   options.folder = asked.folder ? asked.folder : "";
@@ -106,7 +104,7 @@ Outcome runAll(const ringlet_scene& of, const ringlet_run_options& asked, ringle
   if (!outcome) return inSceneWords(outcome.error());
   std::vector<std::string> warnings(outcome->warnings.begin() + static_cast<std::ptrdiff_t>(before),
                                     outcome->warnings.end());
-  for (std::string& sentence : warnings) sentence = ringlet::inSceneWords(sentence);
+  for (std::string& sentence : warnings) sentence = inSceneWords(sentence);
   warnOf(warnings, asked.warn, asked.user);
   if (xyz) std::memcpy(xyz, outcome->positions.data(), outcome->positions.size() * sizeof(Vec3f));
   if (!result) return {};

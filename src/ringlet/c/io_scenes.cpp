@@ -28,14 +28,12 @@ SceneReach reachOf(const ringlet_scene_reading& reading) {
   return reading.is_confined ? SceneReach::ownFolder : SceneReach::anywhere;
 }
 
-Error inSceneWords(const Error& error) { return {ringlet::inSceneWords(error.message), error.fault}; }
-
 Outcome make(const Result<SceneFile>& file, const char* path, const ringlet_scene_reading& reading,
              ringlet_scene** scene) {
   if (!file) return inSceneWords(file.error());
   auto loaded = loadScene(*file);
   if (!loaded) return inSceneWords(loaded.error());
-  for (std::string& sentence : loaded->warnings) sentence = ringlet::inSceneWords(sentence);
+  for (std::string& sentence : loaded->warnings) sentence = inSceneWords(sentence);
   warnOf(loaded->warnings, reading.warn, reading.user);
   auto shared = std::make_shared<const LoadedScene>(std::move(*loaded));
   *scene = new ringlet_scene{shared, ShownGroom(shared->groom), *file, path};

@@ -173,6 +173,8 @@ Status Run::Work::makeSink() {
   if (folder_) {
     std::optional<FullHair> hairs;
     if (options_.hairs > 0) {
+      if (!options_.mover)
+        return Error{"a run with hairs that follow strands was given nothing that moves these hairs"};
       const auto ground = hairGroundOf(scene_, options_.look);
       if (!ground) return ground.error();
       auto made = FullHair::make(scene_.groom, scene_.groom.metresPerUnit,

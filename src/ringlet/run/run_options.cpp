@@ -54,7 +54,7 @@ bool needsOrigin(const SceneOutput& output) {
 Status chooseOrigin(const LoadedGroom& groom, RunOptions& options) {
   if (options.usesGroomPrims && (groom.prims.empty() || groom.prims.front().path.empty()))
     return Error{
-        "only a USD groom has prims of its own, which prims = \"groom\" of [output] would change; leave it out"};
+        "only a USD groom has prims of its own, which prims = \"groom\" of [output] (--usd-prims groom) would change; leave it out"};
   options.origin = &groom;
   return {};
 }
