@@ -108,7 +108,7 @@ py::array_t<double> distances(const BodyObject& self, const py::object& points, 
   py::arg("position") = py::make_tuple(0, 0, 0), py::arg("rotation") = py::make_tuple(0, 0, 0, 1), \
   py::arg("motion") = py::none()
 
-std::string reprOf(const BodyObject& self) {
+std::string bodyReprOf(const BodyObject& self) {
   const Body& body = self.body;
   std::string size;
   if (body.shape == BodyShape::sphere) size = fmt::format(" of radius {} m", body.radius);
@@ -185,7 +185,7 @@ void addBody(py::module_& module) {
           "\"sphere\", \"capsule\", \"plane\", \"box\" or \"mesh\".")
       .def_readonly("warnings", &BodyObject::warnings,
                     "What was odd about its mesh, as holes that were closed: a list of sentences.")
-      .def("__repr__", &reprOf, "What it is, in a line.");
+      .def("__repr__", &bodyReprOf, "What it is, in a line.");
 }
 
 }  // namespace

@@ -180,7 +180,7 @@ py::array strandOf(const py::object& self, long long index) {
   return viewOf(groom.strand(static_cast<std::size_t>(index < 0 ? index + count : index)), self);
 }
 
-std::string reprOf(const GroomObject& self) {
+std::string groomReprOf(const GroomObject& self) {
   return fmt::format("<ringlet.Groom: {} strands, {} particles, {} m a unit>", self.groom().strandCount(),
                      self.particleCount(), self.groom().metresPerUnit);
 }
@@ -277,7 +277,7 @@ void addGroomClass(py::module_& module) {
       .def(
           "__len__", [](const GroomObject& self) { return self.groom().strandCount(); },
           "How many strands there are.")
-      .def("__repr__", &reprOf, "What it is, in a line.");
+      .def("__repr__", &groomReprOf, "What it is, in a line.");
 }
 
 }  // namespace

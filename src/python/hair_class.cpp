@@ -87,7 +87,7 @@ HairHandle newHair(const AssetHandle& asset, const py::object& head, const py::o
   return makeHair(asset, initial);
 }
 
-py::dict reportOf(HairObject& self) {
+py::dict hairReportOf(HairObject& self) {
   const SimulationReport r = self.ask([](Simulation& s) { return valueOf(s.report()); });
   py::dict report;
   report["max_edge_stretch"] = r.maxEdgeStretch;
@@ -127,7 +127,7 @@ py::dict memoryOf(HairObject& self) {
   return memory;
 }
 
-py::object pointsOf(HairObject& self, const py::object& out) {
+py::object hairPointsOf(HairObject& self, const py::object& out) {
   demandOut(out, self.asset()->groom->particleCount());
   return givePoints(self.points(), out);
 }
@@ -195,7 +195,7 @@ void addHairClass(py::module_& module) {
           "(particles, 3) float32 [m] in the groom's order, seen from the head's position, along the world's "
           "axes: world = hair.head.position + positions. Of the last frame that was waited for. out: an "
           "array to fill, which is returned.")
-      .def("points", &pointsOf, py::arg("out") = py::none(),
+      .def("points", &hairPointsOf, py::arg("out") = py::none(),
            "The same as points in the world, in the groom's unit, as files hold them; with no frame under "
            "way.")
       .def(
@@ -332,7 +332,7 @@ void addHairClass(py::module_& module) {
           "Goes on from a checkpoint of hair of such an asset: the same bits as if it had stepped all frames "
           "itself. ringlet.Error for bytes that are damaged or of other hair.")
       .def(
-          "report", &reportOf,
+          "report", &hairReportOf,
           "What happened to the numbers since it was made: a dict of max_edge_stretch (longest edge over the "
           "groom's), limited_share (of edges that the stretch limit touched), nonfinite (particles without a "
           "finite place now), first_nonfinite_strand, first_nonfinite_particle, degenerate_edges.")

@@ -42,7 +42,7 @@ const ProfileParameter* findProfile(std::string_view key) {
   return nullptr;
 }
 
-std::vector<std::string> allKeys() {
+std::vector<std::string> materialKeys() {
   std::vector<std::string> keys;
   const auto add = [&](std::string_view table, const auto& parameters) {
     for (const auto& parameter : parameters) keys.push_back(fmt::format("{}{}", table, parameter.key));
@@ -54,9 +54,11 @@ std::vector<std::string> allKeys() {
   return keys;
 }
 
-std::string unknownKey(std::string_view key) { return unknownName("number of a material", key, allKeys()); }
+std::string unknownMaterialKey(std::string_view key) {
+  return unknownName("number of a material", key, materialKeys());
+}
 
-py::object valueOf(const std::optional<double>& value, bool isWhole) {
+py::object optionalOf(const std::optional<double>& value, bool isWhole) {
   if (!value) return py::none();
   return isWhole ? py::object(py::int_(static_cast<long long>(*value))) : py::object(py::float_(*value));
 }
@@ -74,7 +76,7 @@ void setNumber(Owner& owner, const Parameter<Owner>& parameter, const std::strin
   parameter.set(owner, number);
 }
 
-py::list pointsOf(const Profile& profile) {
+py::list profilePointsOf(const Profile& profile) {
   py::list points;
   for (const Profile::Point& point : profile.points) points.append(py::make_tuple(point.s, point.factor));
   return points;
@@ -96,7 +98,7 @@ void setProfile(Material& material, const ProfileParameter& parameter, const py:
 }
 
 // Whether there is such a number.
-bool setKey(MaterialObject& self, const std::string& key, const py::object& value) {
+bool setParameter(MaterialObject& self, const std::string& key, const py::object& value) {
   if (const ProfileParameter* profile = findProfile(key))
     return setProfile(self.material, *profile, value), true;
   return inTable(self, key, [&](auto& owner, auto parameters, std::string_view name) {
@@ -105,11 +107,12 @@ bool setKey(MaterialObject& self, const std::string& key, const py::object& valu
     return parameter != nullptr;
   });
 }
-std::optional<py::object> getKey(const MaterialObject& self, const std::string& key) {
-  if (const ProfileParameter* profile = findProfile(key)) return pointsOf(self.material.*profile->member);
+std::optional<py::object> getParameter(const MaterialObject& self, const std::string& key) {
+  if (const ProfileParameter* profile = findProfile(key))
+    return profilePointsOf(self.material.*profile->member);
   return inTable(self, key, [&](auto& owner, auto parameters, std::string_view name) {
     const auto* parameter = find(parameters, name);
-    return parameter ? std::optional(valueOf(parameter->of(owner), parameter->isWhole())) : std::nullopt;
+    return parameter ? std::optional(optionalOf(parameter->of(owner), parameter->isWhole())) : std::nullopt;
   });
 }
 
@@ -117,8 +120,8 @@ std::optional<py::object> getKey(const MaterialObject& self, const std::string& 
 void setAll(MaterialObject& self, const py::kwargs& numbers) {
   MaterialObject changed = self;
   for (const auto& [key, value] : numbers) {
-    if (!setKey(changed, key.cast<std::string>(), py::reinterpret_borrow<py::object>(value)))
-      throw py::type_error(unknownKey(key.cast<std::string>()));
+    if (!setParameter(changed, key.cast<std::string>(), py::reinterpret_borrow<py::object>(value)))
+      throw py::type_error(unknownMaterialKey(key.cast<std::string>()));
   }
   self = std::move(changed);
 }
@@ -129,7 +132,7 @@ MaterialObject presetNamed(const std::string& name) {
   return {*found, {}};
 }
 
-MaterialObject loadFile(const std::filesystem::path& path) {
+MaterialObject loadMaterial(const std::filesystem::path& path) {
   LoadedMaterial loaded = withoutGil([&] { return python::valueOf(readMaterial(path)); });
   return {std::move(loaded.material), loaded.dials, std::move(loaded.warnings)};
 }
@@ -147,7 +150,7 @@ py::list listParameters() {
   const auto add = [&](std::string_view table, const auto& parameters) {
     for (const auto& p : parameters)
       list.append(
-          describeParameter(p, fmt::format("{}{}", table, p.key), valueOf(p.defaultValue(), p.isWhole())));
+          describeParameter(p, fmt::format("{}{}", table, p.key), optionalOf(p.defaultValue(), p.isWhole())));
   };
   add("", materialParameters());
   add(kDials, dialParameters());
@@ -157,18 +160,18 @@ py::list listParameters() {
   return list;
 }
 
-std::string reprOf(const MaterialObject& self) {
+std::string materialReprOf(const MaterialObject& self) {
   const MaterialObject standard{};
   std::string changed;
-  for (const std::string& key : allKeys()) {
-    const py::object value = *getKey(self, key);
-    if (!value.equal(*getKey(standard, key)))
+  for (const std::string& key : materialKeys()) {
+    const py::object value = *getParameter(self, key);
+    if (!value.equal(*getParameter(standard, key)))
       changed += fmt::format("{}{}={}", changed.empty() ? "" : ", ", key, std::string(py::repr(value)));
   }
   return fmt::format("<ringlet.Material: {}>", changed.empty() ? "the default" : changed);
 }
 
-std::string docOf(const ParameterText& text) {
+std::string parameterDocOf(const ParameterText& text) {
   const std::string unit = text.unit == std::string("1") ? "" : fmt::format(" [{}]", text.unit);
   return fmt::format("{}{} Allowed {}; usual {}.", text.effect, unit, rangeText(text.allowed, text.unit),
                      rangeText(text.usual, text.unit));
@@ -176,26 +179,28 @@ std::string docOf(const ParameterText& text) {
 
 // An attribute a number of the material itself.
 template <class Class>
-void addAttributes(Class& material) {
+void addParameters(Class& material) {
   for (const Parameter<Material>& parameter : materialParameters()) {
     const std::string key = parameter.key;
     material.def_property(
-        parameter.key, py::cpp_function([key](const MaterialObject& self) { return *getKey(self, key); }),
-        py::cpp_function([key](MaterialObject& self, const py::object& value) { setKey(self, key, value); }),
-        docOf(parameter).c_str());
+        parameter.key,
+        py::cpp_function([key](const MaterialObject& self) { return *getParameter(self, key); }),
+        py::cpp_function(
+            [key](MaterialObject& self, const py::object& value) { setParameter(self, key, value); }),
+        parameterDocOf(parameter).c_str());
   }
   material
       .def(
           "__getattr__",
           [](const py::object&, const std::string& name) -> py::object {
-            throw py::attribute_error(unknownKey(name));
+            throw py::attribute_error(unknownMaterialKey(name));
           },
           py::arg("name"), "AttributeError with the nearest name: asked only for what there is not.")
       .def(
           "__setattr__",
           [](const py::object& self, const py::str& name, const py::object& value) {
             if (!py::hasattr(py::type::of(self), name))
-              throw py::attribute_error(unknownKey(std::string(name)));
+              throw py::attribute_error(unknownMaterialKey(std::string(name)));
             if (PyObject_GenericSetAttr(self.ptr(), name.ptr(), value.ptr()) != 0)
               throw py::error_already_set();
           },
@@ -248,7 +253,7 @@ void addMaterials(py::module_& module) {
             return presets;
           },
           "The presets by name, from straight hair to the tightest curls, with what each looks like: a dict.")
-      .def_static("load", &loadFile, py::arg("path"),
+      .def_static("load", &loadMaterial, py::arg("path"),
                   "Reads a material file (TOML). ringlet.Error with file and line for what is wrong in it.")
       .def_static(
           "parameters", &listParameters,
@@ -270,12 +275,12 @@ void addMaterials(py::module_& module) {
           "__deepcopy__", [](const MaterialObject& self, const py::object&) { return self; }, py::arg("memo"),
           "As copy.")
       .def(
-          "keys", [](const py::object&) { return allKeys(); }, "The names of all numbers: a list.")
+          "keys", [](const py::object&) { return materialKeys(); }, "The names of all numbers: a list.")
       .def(
           "__getitem__",
           [](const MaterialObject& self, const std::string& key) {
-            const auto value = getKey(self, key);
-            if (!value) throw py::key_error(unknownKey(key));
+            const auto value = getParameter(self, key);
+            if (!value) throw py::key_error(unknownMaterialKey(key));
             return *value;
           },
           py::arg("key"),
@@ -283,13 +288,15 @@ void addMaterials(py::module_& module) {
       .def(
           "__setitem__",
           [](MaterialObject& self, const std::string& key, const py::object& value) {
-            if (!setKey(self, key, value)) throw py::key_error(unknownKey(key));
+            if (!setParameter(self, key, value)) throw py::key_error(unknownMaterialKey(key));
           },
           py::arg("key"), py::arg("value"),
           "KeyError for a name that there is not, ValueError for a number out of its range.")
       .def(
           "__contains__",
-          [](const MaterialObject& self, const std::string& key) { return getKey(self, key).has_value(); },
+          [](const MaterialObject& self, const std::string& key) {
+            return getParameter(self, key).has_value();
+          },
           py::arg("key"), "Whether there is such a number.")
       .def(
           "__eq__",
@@ -299,9 +306,9 @@ void addMaterials(py::module_& module) {
             return self.material == o.material && self.dials == o.dials;
           },
           py::arg("other"), "Whether all numbers are the same.")
-      .def("__repr__", &reprOf, "The numbers that are not the default.");
+      .def("__repr__", &materialReprOf, "The numbers that are not the default.");
   material.attr("__hash__") = py::none();  // it changes
-  addAttributes(material);
+  addParameters(material);
 }
 
 }  // namespace ringlet::python

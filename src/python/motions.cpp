@@ -61,7 +61,7 @@ bool isListOfPoses(const py::object& value) {
   return py::len(value) > 0 && py::isinstance<HeadPose>(py::object(sequence[0]));
 }
 
-std::string reprOf(const HeadPose& pose) {
+std::string poseReprOf(const HeadPose& pose) {
   const auto& [p, r, shift] = pose;
   return fmt::format("ringlet.Pose(({}, {}, {}), ({}, {}, {}, {}){})", p.x, p.y, p.z, r.x, r.y, r.z, r.w,
                      shift != 0 ? fmt::format(", shift={}", shift) : "");
@@ -106,7 +106,7 @@ void addPose(py::module_& module) {
             return a.position == b.position && a.rotation == b.rotation && a.shift == b.shift;
           },
           py::arg("other"), "Whether every number is the same.")
-      .def("__repr__", &reprOf, "What makes it again.")
+      .def("__repr__", &poseReprOf, "What makes it again.")
       .attr("__hash__") = py::none();
 }
 
@@ -200,7 +200,7 @@ HeadPose poseAt(const MotionObject& self, double seconds) {
   return self.motion.poseAt(seconds);
 }
 
-py::object framePoses(const MotionObject& self, int frame, const Settings& settings) {
+py::object motionFramePoses(const MotionObject& self, int frame, const Settings& settings) {
   std::vector<HeadPose> poses;
   for (int step = 1; step <= settings.stepsPerFrame; ++step) {
     const double steps = static_cast<double>(frame) * settings.stepsPerFrame + step;
@@ -241,7 +241,7 @@ void addMotion(py::module_& module) {
           "name.")
       .def("pose_at", &poseAt, py::arg("seconds"), "The Pose at a time [s], before 0 too.")
       .def(
-          "frame_poses", &framePoses, py::arg("frame"), py::arg("settings"),
+          "frame_poses", &motionFramePoses, py::arg("frame"), py::arg("settings"),
           "(steps, 8): where the head is at the end of each step of a frame, 0 the first, as Hair.step takes "
           "it: position, rotation, shift.")
       .def_property_readonly(

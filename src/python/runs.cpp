@@ -34,7 +34,7 @@ struct FrameObject {
   py::object positions;
 };
 
-py::object pointsOf(const FrameObject& frame) {
+py::object framePointsOf(const FrameObject& frame) {
   const PointsIn in(frame.positions, "positions");
   std::vector<Vec3f> points(in.points().begin(), in.points().end());
   placeInWorld(points, frame.head, frame.metresPerUnit);
@@ -207,7 +207,7 @@ RunResult runScene(const SceneObject& self, const py::object& callback, const Ru
   return {std::move(outcome), std::move(names), scene.settings, shown.head, scene.groom.metresPerUnit};
 }
 
-py::object reportOf(const RunResult& run) {
+py::object runReportOf(const RunResult& run) {
   const std::string text = runReport(run.names, run.settings, run.outcome);
   return py::module_::import("json").attr("loads")(text);
 }
@@ -220,7 +220,7 @@ void addFrame(py::module_& module) {
       .def_readonly(
           "positions", &FrameObject::positions,
           "(particles, 3) float32 [m], seen from the head, along the world's axes: the callback's own.")
-      .def("points", &pointsOf,
+      .def("points", &framePointsOf,
            "(particles, 3) float32: the same in the world, in the groom's unit, as files hold them.")
       .def(
           "__repr__", [](const FrameObject& f) { return fmt::format("<ringlet.Frame {}>", f.number); },
@@ -249,7 +249,7 @@ void addResult(py::module_& module) {
       .def_property_readonly(
           "warnings", [](const RunResult& r) { return r.outcome.warnings; },
           "What one should know of scene and run: a list of sentences.")
-      .def_property_readonly("report", &reportOf,
+      .def_property_readonly("report", &runReportOf,
                              "All that is known of it: a dict, as `ringlet simulate --json` prints it.")
       .def_property_readonly(
           "head", [](const RunResult& r) { return r.head; }, "Where the head is at the end: a Pose.")

@@ -34,7 +34,7 @@ SceneObject sceneOf(std::string name, std::string summary, LoadedScene loaded, S
 
 SceneReach reachOf(bool isConfined) { return isConfined ? SceneReach::ownFolder : SceneReach::anywhere; }
 
-SceneObject loadFile(const std::filesystem::path& path, bool isConfined) {
+SceneObject loadSceneFile(const std::filesystem::path& path, bool isConfined) {
   return withoutGil([&] {
     const SceneFile file = sceneValueOf(readScene(path, {}, reachOf(isConfined)));
     return sceneOf(path.stem().string(), "", sceneValueOf(loadScene(file)), {file, path, {}});
@@ -113,7 +113,7 @@ HairHandle startHair(const SceneObject& self, DeviceHandle device, const std::st
   return hair;
 }
 
-py::tuple framePoses(const SceneObject& self, int frame) {
+py::tuple sceneFramePoses(const SceneObject& self, int frame) {
   demandFrame(frame);
   const SceneFrame now = frameOf(self.loaded, frame);
   const auto given = [&](const std::vector<BodyPose>& each) {
@@ -129,7 +129,7 @@ void addScenes(py::module_& module) {
       module, "Scene", "All that a run starts from: groom, material, settings, motion, bodies. Constant.");
   scene
       .def_static(
-          "load", &loadFile, py::arg("path"), py::kw_only(), py::arg("confined").noconvert() = false,
+          "load", &loadSceneFile, py::arg("path"), py::kw_only(), py::arg("confined").noconvert() = false,
           "Reads a scene file (TOML) and all that it names: the groom, a motion by .bvh or glTF, meshes. "
           "confined: for a file of a stranger's, which may then name files in or below its own folder only. "
           "ringlet.Error with file and line for what is wrong.")
@@ -201,7 +201,7 @@ void addScenes(py::module_& module) {
       .def_property_readonly(
           "warnings", [](const SceneObject& s) { return s.loaded.warnings; },
           "What one should know of it: a list of sentences.")
-      .def("frame_poses", &framePoses, py::arg("frame"),
+      .def("frame_poses", &sceneFramePoses, py::arg("frame"),
            "Where everything is at the end of each step of a frame, 0 the first: (head, body_poses, "
            "root_poses), as Hair.step takes them; None where there are none.")
       .def(

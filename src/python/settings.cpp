@@ -44,14 +44,14 @@ std::vector<std::string> keysOf(std::string_view table) {
   for (const auto& field : fieldsOf<Owner>()) keys.push_back(fmt::format("{}{}", table, field.key));
   return keys;
 }
-std::vector<std::string> allKeys() {
+std::vector<std::string> settingKeys() {
   std::vector<std::string> keys = keysOf<Settings>("");
   for (const auto& more :
        {keysOf<ContactSettings>(kContacts), keysOf<AirSettings>(kAir), keysOf<GoalSettings>(kGoal)})
     keys.insert(keys.end(), more.begin(), more.end());
   return keys;
 }
-std::string unknownKey(std::string_view key) { return unknownName("setting", key, allKeys()); }
+std::string unknownSetting(std::string_view key) { return unknownName("setting", key, settingKeys()); }
 
 // Values to Python's.
 py::object toPython(const auto&) { return py::none(); }  // types that no setting of these tables has
@@ -179,7 +179,7 @@ void setTable(Owner& owner, const py::object& value, std::string_view table) {
   for (const auto& [key, entry] : py::reinterpret_borrow<py::dict>(value)) {
     const std::string name = fmt::format("{}{}", table, std::string(py::str(key)));
     if (!setField(changed, name.substr(table.size()), name, py::reinterpret_borrow<py::object>(entry)))
-      throw py::type_error(unknownKey(name));
+      throw py::type_error(unknownSetting(name));
   }
   owner = changed;
 }
@@ -230,10 +230,10 @@ std::string docOf(const SettingField<Owner>& field) {
   return doc + (field.isLive ? " May change while hair moves." : "");
 }
 
-std::string reprOf(const Settings& self) {
+std::string settingsReprOf(const Settings& self) {
   const Settings standard{};
   std::string changed;
-  for (const std::string& key : allKeys()) {
+  for (const std::string& key : settingKeys()) {
     const py::object value = *getKey(self, key);
     if (!value.equal(*getKey(standard, key)))
       changed += fmt::format("{}{}={}", changed.empty() ? "" : ", ", key, std::string(py::repr(value)));
@@ -369,19 +369,19 @@ void addSettingsClass(py::module_& module) {
           "range), choices (words), only_with (the integrators or tapers that have it), standard (what holds "
           "where it is None, in words), live (may change while hair moves).")
       .def(
-          "keys", [](const py::object&) { return allKeys(); }, "The names of all settings: a list.")
+          "keys", [](const py::object&) { return settingKeys(); }, "The names of all settings: a list.")
       .def(
           "__getitem__",
           [](const Settings& self, const std::string& key) {
             const auto value = getKey(self, key);
-            if (!value) throw py::key_error(unknownKey(key));
+            if (!value) throw py::key_error(unknownSetting(key));
             return *value;
           },
           py::arg("key"), "A setting by name. KeyError for one that there is not.")
       .def(
           "__setitem__",
           [](Settings& self, const std::string& key, const py::object& value) {
-            if (!setKey(self, key, value)) throw py::key_error(unknownKey(key));
+            if (!setKey(self, key, value)) throw py::key_error(unknownSetting(key));
           },
           py::arg("key"), py::arg("value"),
           "KeyError for a name that there is not, ValueError for a number out of its range.")
@@ -389,7 +389,7 @@ void addSettingsClass(py::module_& module) {
           "__contains__",
           [](const Settings& self, const std::string& key) { return getKey(self, key).has_value(); },
           py::arg("key"), "Whether there is such a setting.")
-      .def("__repr__", &reprOf, "The settings that are not the default.");
+      .def("__repr__", &settingsReprOf, "The settings that are not the default.");
   addAttributes(settings);
 }
 
@@ -407,7 +407,7 @@ void setAll(Settings& settings, const py::kwargs& named) {
     } else if (name == "goal") {
       setTable(changed.goal, value, kGoal);
     } else if (!setKey(changed, name, value)) {
-      throw py::type_error(unknownKey(name));
+      throw py::type_error(unknownSetting(name));
     }
   }
   settings = changed;

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace ringlet {
+namespace ringlet::box_pairs_test {
 namespace {
 
 using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
@@ -154,4 +154,4 @@ TEST(BoxPairs, AFewLargeBoxesCostLittle) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::box_pairs_test

@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-namespace ringlet::test {
+namespace ringlet::test::half_test {
 namespace {
 
 std::uint16_t eigenBits(float value) { return Eigen::half(value).x; }
@@ -39,4 +39,4 @@ TEST(Half, IsEigensEverywhere) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::half_test

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace ringlet {
+namespace ringlet::host_words_test {
 namespace {
 
 constexpr HostWord kWords[] = {
@@ -58,4 +58,4 @@ TEST(HostWords, EachFormIsSaidInThem) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::host_words_test

@@ -7,7 +7,7 @@
 #include <new>
 #include <set>
 
-namespace ringlet {
+namespace ringlet::in_parallel_test {
 namespace {
 
 TEST(InParallel, ThreadsShareTheWork) {
@@ -49,4 +49,4 @@ TEST(InParallel, WhatAnyThrowsComesToTheCaller) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::in_parallel_test

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace ringlet {
+namespace ringlet::shown_text_test {
 namespace {
 
 TEST(ShownText, WhatCommandsATerminalIsShown) {
@@ -54,4 +54,4 @@ TEST(ShownText, JsonStaysJson) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::shown_text_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/test_support.h"
 
-namespace ringlet::test {
+namespace ringlet::test::whole_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -48,4 +48,4 @@ TEST(WholeFile, FilesAndNewNamesAreReplaced) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::whole_file_test

@@ -9,7 +9,7 @@
 #include "ringlet/bodies/icosphere.h"
 #include "ringlet/bodies/mesh_grid.h"
 
-namespace ringlet {
+namespace ringlet::body_surface_test {
 namespace {
 
 struct Case {
@@ -59,4 +59,4 @@ TEST(BodySurface, IsClosedOnTheBodyAndFacesOut) {
 TEST(BodySurface, APlaneHasNone) { EXPECT_TRUE(surfaceOf({.shape = BodyShape::plane}).triangles.empty()); }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::body_surface_test

@@ -9,7 +9,7 @@
 #include "ringlet/bodies/shape_grid.h"
 #include "tests/bodies/body_samples.h"
 
-namespace ringlet {
+namespace ringlet::grid_sample_test {
 namespace {
 
 const Bounds kRoom{{-0.15, -0.14, -0.16}, {0.15, 0.16, 0.14}};
@@ -113,4 +113,4 @@ TEST(GridSample, PointsUpWhereThereIsNoGradient) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::grid_sample_test

@@ -14,7 +14,7 @@
 #include "ringlet/bodies/mesh_grid.h"
 #include "ringlet/bodies/triangle_tree.h"
 
-namespace ringlet {
+namespace ringlet::head_mesh_test {
 namespace {
 
 // Height above the plane of the hairline, in radii.
@@ -121,4 +121,4 @@ TEST(HeadMesh, LeavesGeneratedHairAlone) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::head_mesh_test

@@ -12,7 +12,7 @@
 
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::mesh_file_test {
 namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
@@ -123,4 +123,4 @@ TEST(MeshFile, ReadsRealMeshes) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::mesh_file_test

@@ -15,7 +15,7 @@
 #include "tests/bodies/body_samples.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::mesh_grid_test {
 namespace {
 
 using Distance = std::function<double(Vec3d)>;
@@ -311,4 +311,4 @@ TEST(MeshGrid, OfARealHeadWithHoles) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::mesh_grid_test

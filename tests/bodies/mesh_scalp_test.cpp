@@ -15,7 +15,7 @@
 #include "tests/groom/groom_samples.h"
 #include "tests/groom/style_samples.h"
 
-namespace ringlet {
+namespace ringlet::mesh_scalp_test {
 namespace {
 
 constexpr Vec3d kAxes{0.07, 0.095, 0.1};  // of a long head [m]
@@ -136,4 +136,4 @@ TEST(MeshScalp, OneThatIsElsewhereIsRefused) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::mesh_scalp_test

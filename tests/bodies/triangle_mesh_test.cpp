@@ -12,7 +12,7 @@
 
 #include "tests/bodies/body_samples.h"
 
-namespace ringlet {
+namespace ringlet::triangle_mesh_test {
 namespace {
 
 TEST(TriangleMesh, ClosedShapesAreWatertight) {
@@ -121,4 +121,4 @@ TEST(DistanceToTriangle, TakesNeedles) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::triangle_mesh_test

@@ -10,7 +10,7 @@
 #include "tests/bodies/body_samples.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::triangle_tree_test {
 namespace {
 
 void expectBruteDistances(const TriangleMesh& mesh, int count) {
@@ -86,4 +86,4 @@ TEST(TriangleTree, WindingNumbersHaveClosedForms) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::triangle_tree_test

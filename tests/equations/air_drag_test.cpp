@@ -9,7 +9,7 @@
 
 #include "tests/equations/strand_fixtures.h"
 
-namespace ringlet::reference::test {
+namespace ringlet::reference::test::air_drag_test {
 namespace {
 
 constexpr double kMass = 2e-6;  // [kg]
@@ -245,4 +245,4 @@ TEST(AirDrag, AHingedRodHangsInTheWindAsTheFormulaSays) {
 }
 
 }  // namespace
-}  // namespace ringlet::reference::test
+}  // namespace ringlet::reference::test::air_drag_test

@@ -5,7 +5,7 @@
 
 #include "tests/equations/strand_fixtures.h"
 
-namespace ringlet::reference::test {
+namespace ringlet::reference::test::bend_spring_test {
 namespace {
 
 // With the target held: minus the slope of k/2 |p1 - p0 - t|^2 at p0.
@@ -43,4 +43,4 @@ TEST(BendSpring, DampingIsCompensatedForTheStep) {
 }
 
 }  // namespace
-}  // namespace ringlet::reference::test
+}  // namespace ringlet::reference::test::bend_spring_test

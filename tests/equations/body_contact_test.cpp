@@ -8,7 +8,7 @@
 #include "tests/equations/strand_fixtures.h"
 #include "tests/support/sample_bodies.h"
 
-namespace ringlet::reference::test {
+namespace ringlet::reference::test::body_contact_test {
 namespace {
 
 using ringlet::test::gridBall;
@@ -121,4 +121,4 @@ TEST(BodyContact, FrictionTakesAShareAndStops) {
 }
 
 }  // namespace
-}  // namespace ringlet::reference::test
+}  // namespace ringlet::reference::test::body_contact_test

@@ -8,7 +8,7 @@
 #include "tests/equations/strand_fixtures.h"
 #include "tests/support/sample_bodies.h"
 
-namespace ringlet::reference::test {
+namespace ringlet::reference::test::body_distance_test {
 namespace {
 
 using ringlet::test::gridBall;
@@ -112,4 +112,4 @@ TEST(BodyDistance, GridNormalIsTheInterpolantsGradient) {
 }
 
 }  // namespace
-}  // namespace ringlet::reference::test
+}  // namespace ringlet::reference::test::body_distance_test

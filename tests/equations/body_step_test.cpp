@@ -9,7 +9,7 @@
 #include "tests/equations/strand_fixtures.h"
 #include "tests/support/sample_bodies.h"
 
-namespace ringlet::reference::test {
+namespace ringlet::reference::test::body_step_test {
 namespace {
 
 using ringlet::test::gridBall;
@@ -168,4 +168,4 @@ TEST(BodyStep, AnEdgeLiesOnARodThatNoParticleTouches) {
 }
 
 }  // namespace
-}  // namespace ringlet::reference::test
+}  // namespace ringlet::reference::test::body_step_test

@@ -5,7 +5,7 @@
 
 #include "tests/equations/strand_fixtures.h"
 
-namespace ringlet::reference::test {
+namespace ringlet::reference::test::contact_pairs_test {
 namespace {
 
 // Two particles a strand, the first of every fifth strand pinned.
@@ -80,4 +80,4 @@ TEST(ContactPairs, PinnedParticlesDoNotTouchEachOther) {
 }
 
 }  // namespace
-}  // namespace ringlet::reference::test
+}  // namespace ringlet::reference::test::contact_pairs_test

@@ -5,7 +5,7 @@
 
 #include "tests/equations/strand_fixtures.h"
 
-namespace ringlet::reference::test {
+namespace ringlet::reference::test::contact_spring_test {
 namespace {
 
 constexpr double kStep = 0.005;      // T [s]: a quarter of the default ramp and releases
@@ -263,4 +263,4 @@ TEST(ContactSpring, PushAndWeightAreTheSpringsSlopes) {
 }
 
 }  // namespace
-}  // namespace ringlet::reference::test
+}  // namespace ringlet::reference::test::contact_spring_test

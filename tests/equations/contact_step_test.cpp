@@ -8,7 +8,7 @@
 #include "ringlet/scene/motion.h"
 #include "tests/equations/contact_fixtures.h"
 
-namespace ringlet::reference::test {
+namespace ringlet::reference::test::contact_step_test {
 namespace {
 
 // ---- the solve, on systems of its own
@@ -470,4 +470,4 @@ TEST(TwoCurls, CalmDownPressedAndApart) {
 }
 
 }  // namespace
-}  // namespace ringlet::reference::test
+}  // namespace ringlet::reference::test::contact_step_test

@@ -6,7 +6,7 @@
 #include "reference/equations/smoothing.h"
 #include "tests/equations/strand_fixtures.h"
 
-namespace ringlet::reference::test {
+namespace ringlet::reference::test::core_spring_test {
 namespace {
 
 TEST(CoreSpring, OpposesElongationAndItsRate) {
@@ -79,4 +79,4 @@ TEST(CoreSpring, TransposedIsTheGradientOfItsEnergy) {
 }
 
 }  // namespace
-}  // namespace ringlet::reference::test
+}  // namespace ringlet::reference::test::core_spring_test

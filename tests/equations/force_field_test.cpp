@@ -9,7 +9,7 @@
 
 #include "tests/equations/strand_fixtures.h"
 
-namespace ringlet::reference::test {
+namespace ringlet::reference::test::force_field_test {
 namespace {
 
 using V = Vector3<double>;
@@ -175,4 +175,4 @@ TEST(ForceField, RefusesNumbersOutOfRange) {
 }
 
 }  // namespace
-}  // namespace ringlet::reference::test
+}  // namespace ringlet::reference::test::force_field_test

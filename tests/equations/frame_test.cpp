@@ -5,7 +5,7 @@
 
 #include "tests/equations/strand_fixtures.h"
 
-namespace ringlet::reference::test {
+namespace ringlet::reference::test::frame_test {
 namespace {
 
 constexpr double kRounding = 1e-14;
@@ -121,4 +121,4 @@ TEST(TransportFrames, AZeroEdgeIsSteppedOver) {
 }
 
 }  // namespace
-}  // namespace ringlet::reference::test
+}  // namespace ringlet::reference::test::frame_test

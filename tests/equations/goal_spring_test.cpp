@@ -8,7 +8,7 @@
 #include "ringlet/rest/goal.h"
 #include "tests/equations/strand_fixtures.h"
 
-namespace ringlet::reference::test {
+namespace ringlet::reference::test::goal_spring_test {
 namespace {
 
 // A free particle of a kilogram: its velocity after the step.
@@ -124,4 +124,4 @@ TEST(GoalSpring, AShapeHoldsItsWeight) {
 }
 
 }  // namespace
-}  // namespace ringlet::reference::test
+}  // namespace ringlet::reference::test::goal_spring_test

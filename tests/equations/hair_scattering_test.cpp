@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-namespace ringlet::reference {
+namespace ringlet::reference::hair_scattering_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -164,4 +164,4 @@ TEST(HairScattering, MoreAbsorptionIsDarker) {
 }
 
 }  // namespace
-}  // namespace ringlet::reference
+}  // namespace ringlet::reference::hair_scattering_test

@@ -6,7 +6,7 @@
 
 #include "tests/equations/strand_fixtures.h"
 
-namespace ringlet::reference::test {
+namespace ringlet::reference::test::hanging_curl_test {
 namespace {
 
 struct Hanging {
@@ -75,4 +75,4 @@ TEST(HangingCurl, WithPreloadItDoesNotDroop) {
 }
 
 }  // namespace
-}  // namespace ringlet::reference::test
+}  // namespace ringlet::reference::test::hanging_curl_test

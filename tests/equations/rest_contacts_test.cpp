@@ -6,7 +6,7 @@
 
 #include "tests/equations/strand_fixtures.h"
 
-namespace ringlet::reference::test {
+namespace ringlet::reference::test::rest_contacts_test {
 namespace {
 
 /// Straight strands that hang from the given roots, of equal edges [m].
@@ -233,4 +233,4 @@ TEST_F(PrunedNeighbours, DropsAShareAtRandom) {
 }
 
 }  // namespace
-}  // namespace ringlet::reference::test
+}  // namespace ringlet::reference::test::rest_contacts_test

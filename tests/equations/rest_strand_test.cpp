@@ -6,7 +6,7 @@
 
 #include "tests/equations/strand_fixtures.h"
 
-namespace ringlet::reference::test {
+namespace ringlet::reference::test::rest_strand_test {
 namespace {
 
 constexpr double kFloatPoints =
@@ -141,4 +141,4 @@ TEST(RestStrand, TheRestPoseIsBalanced) {
 }
 
 }  // namespace
-}  // namespace ringlet::reference::test
+}  // namespace ringlet::reference::test::rest_strand_test

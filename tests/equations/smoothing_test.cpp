@@ -7,7 +7,7 @@
 
 #include "tests/equations/strand_fixtures.h"
 
-namespace ringlet::reference::test {
+namespace ringlet::reference::test::smoothing_test {
 namespace {
 
 // Worst relative error of x - expected in the tests below, a few hundred roundings of double.
@@ -102,4 +102,4 @@ TEST(Smoothing, FloatKeepsItsDigitsOnALongStrand) {
 }
 
 }  // namespace
-}  // namespace ringlet::reference::test
+}  // namespace ringlet::reference::test::smoothing_test

@@ -9,7 +9,7 @@
 #include "reference/strand_solve.h"
 #include "tests/equations/strand_fixtures.h"
 
-namespace ringlet::reference::test {
+namespace ringlet::reference::test::star_join_test {
 namespace {
 
 using Stretch = StretchSystem<double>;
@@ -119,4 +119,4 @@ TEST(StarJoin, FloatKeepsItsDigitsHoweverStiff) {
 }
 
 }  // namespace
-}  // namespace ringlet::reference::test
+}  // namespace ringlet::reference::test::star_join_test

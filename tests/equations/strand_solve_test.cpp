@@ -6,7 +6,7 @@
 
 #include "tests/equations/strand_fixtures.h"
 
-namespace ringlet::reference::test {
+namespace ringlet::reference::test::strand_solve_test {
 namespace {
 
 // Along the edge `stiffness` times the mass, across it a tenth of that.
@@ -151,4 +151,4 @@ TEST(StrandSolve, PointIterationsConvergeToTheExactSolution) {
 }
 
 }  // namespace
-}  // namespace ringlet::reference::test
+}  // namespace ringlet::reference::test::strand_solve_test

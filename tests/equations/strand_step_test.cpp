@@ -7,7 +7,7 @@
 #include "ringlet/scene/motion.h"
 #include "tests/equations/strand_fixtures.h"
 
-namespace ringlet::reference::test {
+namespace ringlet::reference::test::strand_step_test {
 namespace {
 
 Settings settingsFor(Integrator integrator) {
@@ -247,4 +247,4 @@ TEST(StrandStep, StrandsTooShortToMoveAreRigid) {
 }
 
 }  // namespace
-}  // namespace ringlet::reference::test
+}  // namespace ringlet::reference::test::strand_step_test

@@ -5,7 +5,7 @@
 
 #include "tests/equations/strand_fixtures.h"
 
-namespace ringlet::reference::test {
+namespace ringlet::reference::test::stretch_limit_test {
 namespace {
 
 struct Limited {
@@ -85,4 +85,4 @@ TEST(StretchLimit, AnEdgeBeyondTheLimitMayNotLengthen) {
 }
 
 }  // namespace
-}  // namespace ringlet::reference::test
+}  // namespace ringlet::reference::test::stretch_limit_test

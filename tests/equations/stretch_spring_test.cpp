@@ -5,7 +5,7 @@
 
 #include "tests/equations/strand_fixtures.h"
 
-namespace ringlet::reference::test {
+namespace ringlet::reference::test::stretch_spring_test {
 namespace {
 
 TEST(StretchSpring, PullsItsEndsTogetherWhenLong) {
@@ -43,4 +43,4 @@ TEST(StretchSpring, DampsTheRateAlongTheEdgeOnly) {
 }
 
 }  // namespace
-}  // namespace ringlet::reference::test
+}  // namespace ringlet::reference::test::stretch_spring_test

@@ -8,7 +8,7 @@
 
 #include "tests/equations/strand_fixtures.h"
 
-namespace ringlet::reference::test {
+namespace ringlet::reference::test::turbulence_test {
 namespace {
 
 const Vector3<double> kOrigin = Vector3<double>::Zero();
@@ -168,4 +168,4 @@ TEST(Turbulence, FloatNearAFarHeadIsDouble) {
 }
 
 }  // namespace
-}  // namespace ringlet::reference::test
+}  // namespace ringlet::reference::test::turbulence_test

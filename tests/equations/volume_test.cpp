@@ -14,7 +14,7 @@
 #include "ringlet/rest/rest_volume.h"
 #include "tests/equations/strand_fixtures.h"
 
-namespace ringlet::reference::test {
+namespace ringlet::reference::test::volume_test {
 namespace {
 
 // 60 particles in a ball of 4 cm, of two strands; a head that turns.
@@ -277,4 +277,4 @@ TEST(Volume, GroupsAndDensitiesAreTheHosts) {
 }
 
 }  // namespace
-}  // namespace ringlet::reference::test
+}  // namespace ringlet::reference::test::volume_test

@@ -17,7 +17,7 @@
 #include "ringlet/solver/simulation.h"
 #include "tests/support/gpu_test.h"
 
-namespace ringlet::test {
+namespace ringlet::test::device_pose_test {
 
 static bool operator==(const layout::uvec4& a, const layout::uvec4& b) {
   return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
@@ -146,4 +146,4 @@ TEST_F(DevicePoseTest, TheBoxIsAboutAllPoints) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::device_pose_test

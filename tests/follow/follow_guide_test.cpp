@@ -16,7 +16,7 @@
 #include "ringlet/groom/curl_shape.h"
 #include "tests/follow/guide_samples.h"
 
-namespace ringlet {
+namespace ringlet::follow_guide_test {
 namespace {
 
 using namespace test;
@@ -407,4 +407,4 @@ TEST(FollowGuides, TipsJerkNoMoreThanTheirGuides) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::follow_guide_test

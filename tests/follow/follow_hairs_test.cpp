@@ -12,7 +12,7 @@
 #include "ringlet/groom/curl_shape.h"
 #include "tests/follow/guide_samples.h"
 
-namespace ringlet {
+namespace ringlet::follow_hairs_test {
 namespace {
 
 using namespace test;
@@ -240,4 +240,4 @@ TEST(PlanHairs, RefusesWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::follow_hairs_test

@@ -23,7 +23,7 @@
 #include "tests/support/gpu_test.h"
 #include "tests/support/kernel_inputs.h"
 
-namespace ringlet::test {
+namespace ringlet::test::follow_stage_test {
 namespace {
 
 using Strand = std::vector<Vec3d>;
@@ -477,4 +477,4 @@ TEST_F(FollowStageTest, TooManyHairsAreRefusedWithTheNumberThereIsRoomFor) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::follow_stage_test

@@ -17,7 +17,7 @@
 #include "ringlet/solver/simulation.h"
 #include "tests/support/gpu_test.h"
 
-namespace ringlet::test {
+namespace ringlet::test::followers_test {
 namespace {
 
 class FollowersTest : public GpuTest {};
@@ -130,4 +130,4 @@ TEST_F(FollowersTest, AreWhereTheReferenceSays) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::followers_test

@@ -12,7 +12,7 @@
 #include "ringlet/follow/guide_rest.h"
 #include "ringlet/groom/generate.h"
 
-namespace ringlet::test {
+namespace ringlet::test::level_of_detail_test {
 namespace {
 
 constexpr double kShares[] = {1, 0.5, 0.25, 0.05, 1e-6};
@@ -182,4 +182,4 @@ TEST(LevelOfDetail, RefusesWhatItCannotDo) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::level_of_detail_test

@@ -14,7 +14,7 @@
 #include "ringlet/follow/near_guides.h"
 #include "ringlet/groom/generate.h"
 
-namespace ringlet {
+namespace ringlet::scalp_roots_test {
 namespace {
 
 constexpr double kRadius = 0.09;  // of generated heads [m]
@@ -268,4 +268,4 @@ TEST(NearGuides, SharesAreContinuous) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::scalp_roots_test

@@ -14,7 +14,7 @@
 #include "ringlet/solver/hair_frames.h"
 #include "ringlet/solver/simulation.h"
 
-namespace ringlet::test {
+namespace ringlet::test::adopted_device_test {
 namespace {
 
 HeadPose headAt(int which, double t) {
@@ -391,4 +391,4 @@ TEST(AdoptedDevice, SaysWhatAHostLacks) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::adopted_device_test

@@ -8,7 +8,7 @@
 
 #include "ringlet/gpu/buffer.h"
 
-namespace ringlet::test {
+namespace ringlet::test::buffer_test {
 namespace {
 
 using gpu::Buffer;
@@ -182,4 +182,4 @@ TEST_F(Buffers, PastTheEndIsTheCallersFault) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::buffer_test

@@ -9,7 +9,7 @@
 #include "ringlet/gpu/buffer.h"
 #include "ringlet/gpu/device_lack.h"
 
-namespace ringlet::test {
+namespace ringlet::test::device_test {
 namespace {
 
 // Sets an environment variable, or unsets it, until the end of a scope.
@@ -158,4 +158,4 @@ TEST_F(Devices, StaysOpenForWhatUsesIt) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::device_test

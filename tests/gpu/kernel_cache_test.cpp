@@ -8,7 +8,7 @@
 #include "ringlet_shaders/scale_values_test.h"
 #include "tests/support/gpu_test.h"
 
-namespace ringlet::test {
+namespace ringlet::test::kernel_cache_test {
 namespace {
 
 using gpu::Kernel;
@@ -114,4 +114,4 @@ TEST_F(KernelCache, AKernelHoldsItsDeviceOpen) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::kernel_cache_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/gpu_test.h"
 
-namespace ringlet::gpu {
+namespace ringlet::gpu::memory_choice_test {
 namespace {
 
 constexpr VkMemoryPropertyFlags kLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
@@ -95,4 +95,4 @@ TEST(MemoryChoice, FailuresNameTheHeapsTried) {
 }
 
 }  // namespace
-}  // namespace ringlet::gpu
+}  // namespace ringlet::gpu::memory_choice_test

@@ -10,7 +10,7 @@
 #include "ringlet/gpu/pipeline_cache_file.h"
 #include "tests/support/gpu_test.h"
 
-namespace ringlet::gpu {
+namespace ringlet::gpu::pipeline_cache_test {
 namespace {
 
 std::filesystem::path scratch(const char* name) {
@@ -110,4 +110,4 @@ TEST_F(PipelineCache, DevicesOpenWhateverTheFolderHolds) {
 }
 
 }  // namespace
-}  // namespace ringlet::gpu
+}  // namespace ringlet::gpu::pipeline_cache_test

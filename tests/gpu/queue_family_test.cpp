@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace ringlet::gpu {
+namespace ringlet::gpu::queue_family_test {
 namespace {
 
 VkQueueFamilyProperties family(VkQueueFlags flags, std::uint32_t timestampBits, std::uint32_t count = 1) {
@@ -50,4 +50,4 @@ TEST(QueueFamily, ComputesWithoutGraphicsAndHasTimestamps) {
 }
 
 }  // namespace
-}  // namespace ringlet::gpu
+}  // namespace ringlet::gpu::queue_family_test

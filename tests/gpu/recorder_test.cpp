@@ -15,7 +15,7 @@
 #include "ringlet/gpu/recorder.h"
 #include "ringlet_shaders/scale_values_test.h"
 
-namespace ringlet::test {
+namespace ringlet::test::recorder_test {
 namespace {
 
 using gpu::Bindings;
@@ -441,4 +441,4 @@ TEST_F(Recorders, ValidationOutlivesTheDevice) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::recorder_test

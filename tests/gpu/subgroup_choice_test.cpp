@@ -12,7 +12,7 @@
 #include "ringlet/solver/strand_kernels.h"
 #include "tests/support/gpu_test.h"
 
-namespace ringlet::test {
+namespace ringlet::test::subgroup_choice_test {
 namespace {
 
 using Widths = std::vector<std::uint32_t>;
@@ -127,4 +127,4 @@ TEST(SubgroupKernels, CompileAtEveryWidth) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::subgroup_choice_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace ringlet::gpu {
+namespace ringlet::gpu::subgroup_width_test {
 namespace {
 
 struct Case {
@@ -61,4 +61,4 @@ TEST(SubgroupWidth, PowersOfTwoOfTheRangeCanBeAskedFor) {
 }
 
 }  // namespace
-}  // namespace ringlet::gpu
+}  // namespace ringlet::gpu::subgroup_width_test

@@ -22,7 +22,7 @@
 #include "tests/support/memory_limit.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::broken_files_test {
 namespace {
 
 // Files here have some hundred bytes. A reader that believes a false count asks for gigabytes.
@@ -167,4 +167,4 @@ TEST(BrokenFiles, Noise) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::broken_files_test

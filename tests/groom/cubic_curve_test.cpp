@@ -10,7 +10,7 @@
 #include "tests/groom/groom_samples.h"
 #include "tests/groom/usda_samples.h"
 
-namespace ringlet {
+namespace ringlet::cubic_curve_test {
 namespace {
 
 std::vector<Vec3d> particlesOf(const std::vector<Vec3d>& points, CubicBasis basis, bool isPinned = false) {
@@ -151,4 +151,4 @@ TEST(CubicCurve, AFilesTokensChooseTheBasis) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::cubic_curve_test

@@ -13,7 +13,7 @@
 #include "ringlet/groom/groom_file.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::curl_shape_test {
 namespace {
 
 using Strand = std::vector<Vec3d>;
@@ -359,4 +359,4 @@ TEST(CurlShapeOnRealHair, StraightHair) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::curl_shape_test

@@ -9,7 +9,7 @@
 
 #include "tests/groom/groom_samples.h"
 
-namespace ringlet {
+namespace ringlet::edge_chains_test {
 namespace {
 
 using Points = std::vector<std::uint32_t>;
@@ -102,4 +102,4 @@ TEST(EdgeChains, NothingGivesNothing) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::edge_chains_test

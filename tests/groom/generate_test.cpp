@@ -18,7 +18,7 @@
 #include "tests/groom/groom_samples.h"
 #include "tests/groom/style_samples.h"
 
-namespace ringlet {
+namespace ringlet::generate_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -515,4 +515,4 @@ TEST(SeededRandom, IsSplitMix64) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::generate_test

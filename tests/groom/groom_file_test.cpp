@@ -13,7 +13,7 @@
 #include "tests/groom/groom_samples.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::groom_file_test {
 namespace {
 
 using test::contains;
@@ -132,4 +132,4 @@ TEST(GroomFile, AFullDiskIsReportedAndLeavesTheOldFile) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::groom_file_test

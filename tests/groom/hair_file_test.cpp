@@ -13,7 +13,7 @@
 #include "tests/groom/groom_samples.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::hair_file_test {
 namespace {
 
 using test::contains;
@@ -272,4 +272,4 @@ TEST(HairFile, ReadsRealHair) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::hair_file_test

@@ -19,7 +19,7 @@
 #include "tests/groom/zip_bytes.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::left_out_test {
 namespace {
 
 using test::contains;
@@ -563,4 +563,4 @@ TEST(LeftOut, ValuesOfCurvesAreThoseOfTheStrandsThatStay) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::left_out_test

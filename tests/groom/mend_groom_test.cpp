@@ -9,7 +9,7 @@
 #include "ringlet/groom/generate.h"
 #include "tests/groom/groom_samples.h"
 
-namespace ringlet {
+namespace ringlet::mend_groom_test {
 namespace {
 
 Groom groomOf(const std::vector<std::vector<Vec3f>>& strands) {
@@ -77,4 +77,4 @@ TEST(MendGroom, ResamplingKeepsACurl) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::mend_groom_test

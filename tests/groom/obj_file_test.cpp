@@ -13,7 +13,7 @@
 #include "tests/groom/groom_samples.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::obj_file_test {
 namespace {
 
 using test::contains;
@@ -259,4 +259,4 @@ TEST(ObjFile, SaysWhatAMeshOrAPointCloudLacks) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::obj_file_test

@@ -12,7 +12,7 @@
 #include "tests/support/memory_limit.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::ply_file_test {
 namespace {
 
 using test::contains;
@@ -152,4 +152,4 @@ TEST(PlyFile, WhatIsWrittenIsReadBack) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::ply_file_test

@@ -17,7 +17,7 @@
 #include "tests/groom/style_samples.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::root_ends_test {
 namespace {
 
 using test::contains;
@@ -197,4 +197,4 @@ TEST(RootEnds, AFileIsReadFromTheEndThatIsAskedFor) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::root_ends_test

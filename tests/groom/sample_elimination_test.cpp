@@ -9,7 +9,7 @@
 #include <random>
 #include <set>
 
-namespace ringlet {
+namespace ringlet::sample_elimination_test {
 namespace {
 
 // Points of a square of 1 m, thrown at random.
@@ -51,4 +51,4 @@ TEST(SampleElimination, FewerPointsAllStay) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::sample_elimination_test

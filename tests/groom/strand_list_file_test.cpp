@@ -13,7 +13,7 @@
 #include "tests/support/memory_limit.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::strand_list_file_test {
 namespace {
 
 using test::contains;
@@ -99,4 +99,4 @@ TEST(StrandListFile, IsChosenByExtension) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::strand_list_file_test

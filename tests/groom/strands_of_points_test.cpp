@@ -12,7 +12,7 @@
 #include "tests/groom/strand_list_bytes.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::strands_of_points_test {
 namespace {
 
 using test::contains;
@@ -119,4 +119,4 @@ TEST(StrandsOfPoints, PointsThatAreNotFiniteAreRefused) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::strands_of_points_test

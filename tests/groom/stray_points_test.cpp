@@ -12,7 +12,7 @@
 #include "ringlet/measure/groom_inspection.h"
 #include "tests/groom/groom_samples.h"
 
-namespace ringlet {
+namespace ringlet::stray_points_test {
 namespace {
 
 // Twenty strands of ten particles a unit apart, hanging beside each other, far from the origin.
@@ -175,4 +175,4 @@ TEST(MendGroom, IsDoneAtOnce) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::stray_points_test

@@ -13,7 +13,7 @@
 #include "tests/groom/tfx_bytes.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::tfx_file_test {
 namespace {
 
 using test::contains;
@@ -182,4 +182,4 @@ TEST(TfxFile, ReadsRealHair) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::tfx_file_test

@@ -17,7 +17,7 @@
 #include "tests/support/memory_limit.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::usda_file_test {
 namespace {
 
 using test::contains;
@@ -496,4 +496,4 @@ TEST(UsdaFile, ReadsAThousandStrandsOfBlender) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::usda_file_test

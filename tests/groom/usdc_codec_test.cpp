@@ -10,7 +10,7 @@
 
 #include "ringlet/groom/lz4_block.h"
 
-namespace ringlet {
+namespace ringlet::usdc_codec_test {
 namespace {
 
 TEST(UsdcCodec, BytesOfEveryLengthComeBack) {
@@ -38,4 +38,4 @@ TEST(UsdcCodec, IntegersOfEverySizeComeBack) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::usdc_codec_test

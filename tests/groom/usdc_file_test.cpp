@@ -19,7 +19,7 @@
 #include "tests/support/memory_limit.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::usdc_file_test {
 namespace {
 
 using test::contains;
@@ -411,4 +411,4 @@ TEST(UsdcFile, ReadsWhatBlenderWrote) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::usdc_file_test

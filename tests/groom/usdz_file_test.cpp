@@ -13,7 +13,7 @@
 #include "tests/groom/zip_bytes.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::usdz_file_test {
 namespace {
 
 using test::ZipBytes;
@@ -73,4 +73,4 @@ TEST(UsdzFile, RefusesEveryTruncationAndSurvivesEveryByte) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::usdz_file_test

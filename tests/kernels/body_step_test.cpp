@@ -12,7 +12,7 @@
 #include "tests/support/sample_bodies.h"
 #include "tests/support/tolerances.h"
 
-namespace ringlet::test {
+namespace ringlet::test::body_step_test {
 namespace {
 
 // Kernels with bodies take seconds to compile, one for every number of lanes: each form has strands of one.
@@ -170,4 +170,4 @@ TEST_F(BodyStep, AFrameAgreesWithDouble) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::body_step_test

@@ -18,7 +18,7 @@
 #include "tests/support/parity.h"
 #include "tests/support/sample_bodies.h"
 
-namespace ringlet::test {
+namespace ringlet::test::bound_buffers_test {
 namespace {
 
 constexpr std::uint32_t kFew = 8;  // a Raspberry Pi's
@@ -150,4 +150,4 @@ TEST_F(FewBuffers, WhatNeedsMoreIsRefusedWithNumbers) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::bound_buffers_test

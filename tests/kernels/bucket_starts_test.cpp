@@ -17,7 +17,7 @@
 #include "ringlet/solver/volume_kernels.h"
 #include "tests/support/gpu_test.h"
 
-namespace ringlet::test {
+namespace ringlet::test::bucket_starts_test {
 namespace {
 
 using Words = std::vector<std::uint32_t>;
@@ -106,4 +106,4 @@ TEST_F(BucketStarts, ArePrefixSums) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::bucket_starts_test

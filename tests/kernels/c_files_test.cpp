@@ -16,7 +16,7 @@
 #include "tests/support/scene_path_cases.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet::test {
+namespace ringlet::test::c_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -478,4 +478,4 @@ TEST(CFilesOnly, WarningsAreSaid) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::c_files_test

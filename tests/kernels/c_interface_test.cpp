@@ -14,7 +14,7 @@
 #include "tests/kernels/c_handles.h"
 #include "tests/kernels/sample_hairs.h"
 
-namespace ringlet::test {
+namespace ringlet::test::c_interface_test {
 namespace {
 
 using CInterface = CTest;
@@ -422,4 +422,4 @@ TEST_F(CInterface, StructsMayBeOfOtherVersions) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::c_interface_test

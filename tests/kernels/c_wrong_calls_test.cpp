@@ -19,7 +19,7 @@
 #include "tests/kernels/c_handles.h"
 #include "tests/support/parity.h"
 
-namespace ringlet::test {
+namespace ringlet::test::c_wrong_calls_test {
 namespace {
 
 using CWrongCalls = CTest;
@@ -531,4 +531,4 @@ TEST_F(CWrongCalls, CheckpointsOfOtherHair) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::c_wrong_calls_test

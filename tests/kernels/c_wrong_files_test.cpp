@@ -19,7 +19,7 @@
 #include "tests/support/parity.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet::test {
+namespace ringlet::test::c_wrong_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -592,4 +592,4 @@ TEST_F(CWrongFiles, InAProcessThatForkMade) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::c_wrong_files_test

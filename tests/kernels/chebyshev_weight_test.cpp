@@ -7,7 +7,7 @@
 #include "tests/support/parity.h"
 #include "tests/support/tolerances.h"
 
-namespace ringlet::test {
+namespace ringlet::test::chebyshev_weight_test {
 namespace {
 
 class ChebyshevWeight : public GpuTest {};
@@ -26,4 +26,4 @@ TEST_F(ChebyshevWeight, IsThatOfTheReferenceAfterThirtyIterations) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::chebyshev_weight_test

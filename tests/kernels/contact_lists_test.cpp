@@ -12,7 +12,7 @@
 #include "ringlet/solver/simulation.h"
 #include "tests/support/gpu_test.h"
 
-namespace ringlet::test {
+namespace ringlet::test::contact_lists_test {
 namespace {
 
 using namespace parity;
@@ -289,4 +289,4 @@ TEST_F(ContactLists, LostNumbers) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::contact_lists_test

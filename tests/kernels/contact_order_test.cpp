@@ -14,7 +14,7 @@
 #include "ringlet/solver/contact_kernels.h"
 #include "tests/support/gpu_test.h"
 
-namespace ringlet::test {
+namespace ringlet::test::contact_order_test {
 namespace {
 
 constexpr std::uint32_t kContacts = 500, kBuckets = layout::kBucketBlock, kUsedBuckets = 9;
@@ -101,4 +101,4 @@ TEST_F(ContactOrder, IsByIndexInEveryBucket) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::contact_order_test

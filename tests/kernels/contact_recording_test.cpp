@@ -14,7 +14,7 @@
 #include "ringlet/solver/simulation.h"
 #include "tests/support/gpu_test.h"
 
-namespace ringlet::test {
+namespace ringlet::test::contact_recording_test {
 namespace {
 
 using Commands = std::vector<std::string>;
@@ -157,4 +157,4 @@ TEST_F(ContactRecording, HasABarrierBeforeEveryDispatch) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::contact_recording_test

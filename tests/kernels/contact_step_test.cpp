@@ -18,7 +18,7 @@
 #include "tests/support/test_support.h"
 #include "tests/support/tolerances.h"
 
-namespace ringlet::test {
+namespace ringlet::test::contact_step_test {
 namespace {
 
 using namespace parity;
@@ -321,4 +321,4 @@ TEST_F(ContactStep, TheRestPoseStaysPut) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::contact_step_test

@@ -12,7 +12,7 @@
 #include "tests/support/gpu_test.h"
 #include "tests/support/tolerances.h"
 
-namespace ringlet::test {
+namespace ringlet::test::cut_contacts_test {
 namespace {
 
 using namespace parity;
@@ -130,4 +130,4 @@ TEST_F(CutContacts, LandsOnOtherHair) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::cut_contacts_test

@@ -15,7 +15,7 @@
 #include "tests/support/gpu_test.h"
 #include "tests/support/tolerances.h"
 
-namespace ringlet::test {
+namespace ringlet::test::cut_test {
 namespace {
 
 using Cut = GpuTest;
@@ -368,4 +368,4 @@ TEST_F(Cut, RefusesWhatItCannot) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::cut_test

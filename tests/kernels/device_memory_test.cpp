@@ -9,7 +9,7 @@
 #include "tests/support/parity.h"
 #include "tests/support/sample_bodies.h"
 
-namespace ringlet::test {
+namespace ringlet::test::device_memory_test {
 namespace {
 
 class Memory : public GpuTest {
@@ -145,4 +145,4 @@ TEST_F(Memory, OfListedContacts) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::device_memory_test

@@ -6,7 +6,7 @@
 
 #include <numeric>
 
-namespace ringlet::test {
+namespace ringlet::test::dispatch_plan_test {
 namespace {
 
 const DeviceLimits kLavapipe{8, true, true, 65535, true};
@@ -109,4 +109,4 @@ TEST(DispatchPlan, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::dispatch_plan_test

@@ -18,7 +18,7 @@
 #include "tests/kernels/sample_hairs.h"
 #include "tests/support/gpu_test.h"
 
-namespace ringlet::test {
+namespace ringlet::test::divided_hair_test {
 namespace {
 
 using Parts = std::vector<std::vector<std::uint32_t>>;
@@ -415,4 +415,4 @@ TEST_F(DividedHair, KnowsItsHaloOnly) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::divided_hair_test

@@ -18,7 +18,7 @@
 #include "tests/support/parity.h"
 #include "tests/support/tolerances.h"
 
-namespace ringlet::test {
+namespace ringlet::test::every_shape_test {
 namespace {
 
 // Strands that fill the shape, all but a particle, all lanes but one and a particle; and the shortest there
@@ -94,4 +94,4 @@ INSTANTIATE_TEST_SUITE_P(Lanes, EveryShape, ::testing::Values(1, 2, 4, 8, 16, 32
                          [](const auto& lanes) { return fmt::format("{}", lanes.param); });
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::every_shape_test

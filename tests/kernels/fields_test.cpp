@@ -10,7 +10,7 @@
 #include "tests/support/gpu_test.h"
 #include "tests/support/tolerances.h"
 
-namespace ringlet::test {
+namespace ringlet::test::fields_test {
 namespace {
 
 using Fields = GpuTest;
@@ -195,4 +195,4 @@ TEST_F(Fields, AreRefused) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::fields_test

@@ -10,7 +10,7 @@
 #include "tests/support/gpu_test.h"
 #include "tests/support/tolerances.h"
 
-namespace ringlet::test {
+namespace ringlet::test::forces_test {
 namespace {
 
 using Forces = GpuTest;
@@ -184,4 +184,4 @@ TEST_F(Forces, AreRefusedOfHairBuiltWithout) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::forces_test

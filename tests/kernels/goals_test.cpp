@@ -11,7 +11,7 @@
 #include "tests/support/gpu_test.h"
 #include "tests/support/tolerances.h"
 
-namespace ringlet::test {
+namespace ringlet::test::goals_test {
 namespace {
 
 using Goals = GpuTest;
@@ -300,4 +300,4 @@ TEST_F(Goals, NeedTheIntegratorJacobi) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::goals_test

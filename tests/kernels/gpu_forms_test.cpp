@@ -12,7 +12,7 @@
 #include "tests/support/gpu_test.h"
 #include "tests/support/parity.h"
 
-namespace ringlet::test {
+namespace ringlet::test::gpu_forms_test {
 namespace {
 
 struct Case {
@@ -93,4 +93,4 @@ TEST_F(GpuForms, GiveTheBitsOfAProcessors) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::gpu_forms_test

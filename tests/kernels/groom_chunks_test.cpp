@@ -15,7 +15,7 @@
 #include "tests/support/parity.h"
 #include "tests/support/sample_bodies.h"
 
-namespace ringlet::test {
+namespace ringlet::test::groom_chunks_test {
 namespace {
 
 constexpr std::uint64_t kMebibyte = 1 << 20;
@@ -260,4 +260,4 @@ TEST_F(ChunkedGroom, MoreThanTheDevicesMemoryIsRefusedWithTheNumbers) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::groom_chunks_test

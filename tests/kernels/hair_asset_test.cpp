@@ -9,7 +9,7 @@
 #include "tests/kernels/sample_hairs.h"
 #include "tests/support/gpu_test.h"
 
-namespace ringlet::test {
+namespace ringlet::test::hair_asset_test {
 namespace {
 
 using HairAssetTest = GpuTest;
@@ -104,4 +104,4 @@ TEST_F(HairAssetTest, IsBuiltWithBodiesOrWithout) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::hair_asset_test

@@ -10,7 +10,7 @@
 #include "tests/support/gpu_test.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet::test {
+namespace ringlet::test::hair_frames_test {
 namespace {
 
 using HairFramesTest = GpuTest;
@@ -319,4 +319,4 @@ TEST_F(HairFramesTest, MisuseIsTheCallersFault) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::hair_frames_test

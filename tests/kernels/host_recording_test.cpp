@@ -11,7 +11,7 @@
 #include "tests/support/kernel_spy.h"
 #include "tests/support/parity.h"
 
-namespace ringlet::test {
+namespace ringlet::test::host_recording_test {
 namespace {
 
 constexpr VkPipelineStageFlags kWork = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
@@ -128,4 +128,4 @@ TEST_F(HostRecording, CommandsOfAHostHaveTheirBarriers) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::host_recording_test

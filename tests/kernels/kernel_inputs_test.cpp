@@ -12,7 +12,7 @@
 #include "tests/support/gpu_test.h"
 #include "tests/support/kernel_inputs.h"
 
-namespace ringlet::test {
+namespace ringlet::test::kernel_inputs_test {
 namespace {
 
 const InputException kExceptions[] = {
@@ -82,4 +82,4 @@ TEST(KernelFamilies, BeginKernels) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::kernel_inputs_test

@@ -22,7 +22,7 @@
 #include "embedded_modules.h"
 #include "tests/support/spirv_structs.h"
 
-namespace ringlet::test {
+namespace ringlet::test::layout_test {
 namespace {
 
 struct CppStruct {
@@ -454,4 +454,4 @@ TEST(Layout, TexelRecordsAreWholeTexels) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::layout_test

@@ -8,7 +8,7 @@
 #include "tests/kernels/sample_hairs.h"
 #include "tests/support/gpu_test.h"
 
-namespace ringlet::test {
+namespace ringlet::test::live_bodies_test {
 namespace {
 
 using LiveBodies = GpuTest;
@@ -178,4 +178,4 @@ TEST_F(LiveBodies, ChangeThroughC) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::live_bodies_test

@@ -12,7 +12,7 @@
 #include "tests/kernels/sample_hairs.h"
 #include "tests/support/gpu_test.h"
 
-namespace ringlet::test {
+namespace ringlet::test::live_material_test {
 namespace {
 
 using LiveMaterials = GpuTest;
@@ -225,4 +225,4 @@ TEST_F(LiveMaterials, WhatCannotBeIsRefused) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::live_material_test

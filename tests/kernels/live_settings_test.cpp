@@ -11,7 +11,7 @@
 #include "tests/kernels/sample_hairs.h"
 #include "tests/support/gpu_test.h"
 
-namespace ringlet::test {
+namespace ringlet::test::live_settings_test {
 namespace {
 
 using LiveSettings = GpuTest;
@@ -271,4 +271,4 @@ TEST_F(LiveSettings, WhatMayNotChangeIsNamed) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::live_settings_test

@@ -9,7 +9,7 @@
 
 #include "layout/contacts.h"
 
-namespace ringlet::test {
+namespace ringlet::test::neighbour_table_test {
 namespace {
 
 using Table = std::vector<std::array<std::uint32_t, 4>>;
@@ -97,4 +97,4 @@ TEST(NeighbourTable, StandsAlikeHashes) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::neighbour_table_test

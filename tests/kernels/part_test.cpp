@@ -8,7 +8,7 @@
 #include "tests/kernels/sample_hairs.h"
 #include "tests/support/gpu_test.h"
 
-namespace ringlet::test {
+namespace ringlet::test::part_test {
 namespace {
 
 using Part = GpuTest;
@@ -150,4 +150,4 @@ TEST_F(Part, WhatCannotBeDividedIsRefused) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::part_test

@@ -10,7 +10,7 @@
 #include "tests/support/gpu_test.h"
 #include "tests/support/tolerances.h"
 
-namespace ringlet::test {
+namespace ringlet::test::profile_test {
 namespace {
 
 using Profiles = GpuTest;
@@ -88,4 +88,4 @@ TEST_F(Profiles, EachActs) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::profile_test

@@ -14,7 +14,7 @@
 #include "tests/support/parity.h"
 #include "tests/support/tolerances.h"
 
-namespace ringlet::test {
+namespace ringlet::test::residual_test {
 namespace {
 
 // What the reference leaves of one strand's system after a step's solve, as the device reports it
@@ -99,4 +99,4 @@ TEST_F(Residual, IsRoundingForTheStrandBlockAndThatOfTheReferenceForPointIterati
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::residual_test

@@ -15,7 +15,7 @@
 #include "tests/support/tolerances.h"
 #include "tests/support/varying_curls.h"
 
-namespace ringlet::test {
+namespace ringlet::test::rest_state_test {
 namespace {
 
 void expectNear(double found, double expected, const std::string& what) {
@@ -279,4 +279,4 @@ TEST(RestState, RefusesAirOutOfRange) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::rest_state_test

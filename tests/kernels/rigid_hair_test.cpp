@@ -14,7 +14,7 @@
 #include "tests/support/sample_bodies.h"
 #include "tests/support/tolerances.h"
 
-namespace ringlet::test {
+namespace ringlet::test::rigid_hair_test {
 namespace {
 
 constexpr int kFrames = 6;
@@ -243,4 +243,4 @@ TEST_F(RigidHairTest, LetsTheStretchLimitHold) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::rigid_hair_test

@@ -11,7 +11,7 @@
 #include "tests/support/parity.h"
 #include "tests/support/tolerances.h"
 
-namespace ringlet::test {
+namespace ringlet::test::root_poses_test {
 namespace {
 
 constexpr int kFrames = 4;
@@ -132,4 +132,4 @@ TEST_F(RootPoses, AreTheNewOnesAfterAJump) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::root_poses_test

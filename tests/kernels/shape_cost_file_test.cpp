@@ -7,7 +7,7 @@
 
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::shape_cost_file_test {
 namespace {
 
 using test::scratchFolder;
@@ -64,4 +64,4 @@ TEST(ShapeCostFile, SaysWhatIsWrongAndWhere) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::shape_cost_file_test

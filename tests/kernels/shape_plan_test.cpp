@@ -14,7 +14,7 @@
 
 #include "ringlet/solver/strand_kernels.h"
 
-namespace ringlet::test {
+namespace ringlet::test::shape_plan_test {
 namespace {
 
 const DeviceLimits kLavapipe{8, true, true, 65535};
@@ -301,4 +301,4 @@ TEST(ShapePlan, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::shape_plan_test

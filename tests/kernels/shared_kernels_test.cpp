@@ -8,7 +8,7 @@
 #include "tests/support/gpu_test.h"
 #include "tests/support/parity.h"
 
-namespace ringlet::test {
+namespace ringlet::test::shared_kernels_test {
 namespace {
 
 struct Announced : CompileObserver {
@@ -59,4 +59,4 @@ TEST_F(SharedKernels, FourEqualSimulationsCompileOnce) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::shared_kernels_test

@@ -10,7 +10,7 @@
 #include "ringlet_shaders/uniformity_probe_test.h"
 #include "tests/support/shuffle_uniformity.h"
 
-namespace ringlet::test {
+namespace ringlet::test::shuffle_uniformity_test {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -33,4 +33,4 @@ TEST(ShuffleUniformity, FindsThoseThatSomeLanesLeaveOut) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::shuffle_uniformity_test

@@ -9,7 +9,7 @@
 #include "tests/kernels/sample_hairs.h"
 #include "tests/support/gpu_test.h"
 
-namespace ringlet::test {
+namespace ringlet::test::sleep_test {
 namespace {
 
 using Sleep = GpuTest;
@@ -243,4 +243,4 @@ TEST_F(Sleep, TheSameHoweverFramesAreStepped) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::sleep_test

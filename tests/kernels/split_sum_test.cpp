@@ -12,7 +12,7 @@
 #include "ringlet_shaders/split_sum_probe_test.h"
 #include "tests/support/gpu_test.h"
 
-namespace ringlet::test {
+namespace ringlet::test::split_sum_test {
 namespace {
 
 using Four = std::array<std::int32_t, 4>;
@@ -71,4 +71,4 @@ TEST_F(SplitSum, HasRoomForAsManyTermsAsItSays) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::split_sum_test

@@ -8,7 +8,7 @@
 #include "tests/support/gpu_test.h"
 #include "tests/support/parity.h"
 
-namespace ringlet::test {
+namespace ringlet::test::staged_contacts_test {
 namespace {
 
 struct Seen {
@@ -122,4 +122,4 @@ TEST_F(StagedContacts, PairTestsAddUpOverFrames) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::staged_contacts_test

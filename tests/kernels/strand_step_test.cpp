@@ -10,7 +10,7 @@
 #include "tests/support/parity.h"
 #include "tests/support/tolerances.h"
 
-namespace ringlet::test {
+namespace ringlet::test::strand_step_test {
 namespace {
 
 Settings settingsFor(Integrator integrator) {
@@ -230,4 +230,4 @@ TEST_F(StrandStep, OnlyWhatIsSolvedFromItsEndsHasLongRuns) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::strand_step_test

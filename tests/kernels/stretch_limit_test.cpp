@@ -12,7 +12,7 @@
 #include "tests/support/sample_bodies.h"
 #include "tests/support/tolerances.h"
 
-namespace ringlet::test {
+namespace ringlet::test::stretch_limit_test {
 namespace {
 
 class StretchLimit : public GpuTest {
@@ -74,4 +74,4 @@ TEST_F(StretchLimit, AStepAmongBodiesAgrees) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::stretch_limit_test

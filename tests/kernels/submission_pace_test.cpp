@@ -11,7 +11,7 @@
 #include "tests/support/gpu_test.h"
 #include "tests/support/parity.h"
 
-namespace ringlet::test {
+namespace ringlet::test::submission_pace_test {
 namespace {
 
 using Stages = std::vector<std::pair<std::string, double>>;  // [ms]
@@ -193,4 +193,4 @@ TEST_F(ShortSubmissions, TheSameBitsWithoutTheValidationLayer) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::submission_pace_test

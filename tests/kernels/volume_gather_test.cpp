@@ -17,7 +17,7 @@
 #include "ringlet/solver/volume_kernels.h"
 #include "tests/support/gpu_test.h"
 
-namespace ringlet::test {
+namespace ringlet::test::volume_gather_test {
 namespace {
 
 constexpr std::uint32_t kSide = 5, kNodes = kSide * kSide * kSide, kCells = layout::kBucketBlock;
@@ -156,4 +156,4 @@ TEST_F(VolumeGather, DoesNotDependOnHowParcelsAreDivided) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::volume_gather_test

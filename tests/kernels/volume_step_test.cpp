@@ -16,7 +16,7 @@
 #include "tests/support/test_support.h"
 #include "tests/support/tolerances.h"
 
-namespace ringlet::test {
+namespace ringlet::test::volume_step_test {
 namespace {
 
 using namespace parity;
@@ -347,4 +347,4 @@ TEST_F(VolumeStep, TheRestPoseStaysPut) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::volume_step_test

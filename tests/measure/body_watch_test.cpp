@@ -8,7 +8,7 @@
 #include "ringlet/bodies/body_distance.h"
 #include "tests/support/sample_bodies.h"
 
-namespace ringlet::test {
+namespace ringlet::test::body_watch_test {
 namespace {
 
 TEST(BodyDistance, OfEveryShape) {
@@ -115,4 +115,4 @@ TEST(BodyWatch, LeavesOutNothingThatIsInside) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::body_watch_test

@@ -10,7 +10,7 @@
 
 #include "tests/rest/contact_samples.h"
 
-namespace ringlet {
+namespace ringlet::contact_quality_test {
 namespace {
 
 using namespace test;
@@ -185,4 +185,4 @@ TEST(ContactQuality, WhatIsNotFiniteOverlapsNothing) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::contact_quality_test

@@ -9,7 +9,7 @@
 
 #include "tests/rest/contact_samples.h"
 
-namespace ringlet {
+namespace ringlet::contact_watch_test {
 namespace {
 
 using namespace test;
@@ -90,4 +90,4 @@ TEST(ContactWatch, WarnsOfWhatTheSolverWarnsOf) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::contact_watch_test

@@ -7,7 +7,7 @@
 
 #include "tests/measure/strand_samples.h"
 
-namespace ringlet {
+namespace ringlet::core_test {
 namespace {
 
 using namespace test;
@@ -110,4 +110,4 @@ TEST(FramesAlong, SurviveACoreWithoutLength) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::core_test

@@ -11,7 +11,7 @@
 #include "ringlet/groom/groom.h"
 #include "tests/rest/contact_samples.h"
 
-namespace ringlet {
+namespace ringlet::crossings_test {
 namespace {
 
 using namespace test;
@@ -247,4 +247,4 @@ TEST(Crossings, WhatIsNotFiniteCrossesNothing) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::crossings_test

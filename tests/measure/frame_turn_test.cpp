@@ -5,7 +5,7 @@
 
 #include "tests/measure/strand_samples.h"
 
-namespace ringlet {
+namespace ringlet::frame_turn_test {
 namespace {
 
 using namespace test;
@@ -71,4 +71,4 @@ TEST(FrameTurn, DoesNotDependOnTheUnit) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::frame_turn_test

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace ringlet {
+namespace ringlet::groom_doubts_test {
 namespace {
 
 // Hair of the upper half of a head of 9 cm, `up` Y or Z, 18 cm long along the negative `hangs`.
@@ -47,4 +47,4 @@ TEST(GroomDoubts, HairThatIsCombedBackDoesNotTellWhatIsUp) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::groom_doubts_test

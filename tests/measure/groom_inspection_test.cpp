@@ -7,7 +7,7 @@
 
 #include "ringlet/groom/generate.h"
 
-namespace ringlet {
+namespace ringlet::groom_inspection_test {
 namespace {
 
 // Strands of eleven particles, `spacing` apart, each along `way` [unit].
@@ -98,4 +98,4 @@ TEST(GroomInspection, AGeneratedHeadIsFaultless) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::groom_inspection_test

@@ -11,7 +11,7 @@
 #include "tests/measure/strand_samples.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::groom_measure_test {
 namespace {
 
 using namespace test;
@@ -144,4 +144,4 @@ TEST(GroomMeasureOnRealHair, TightCoilsKeepTheirTurnsAsTheySettle) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::groom_measure_test

@@ -7,7 +7,7 @@
 
 #include "tests/measure/strand_samples.h"
 
-namespace ringlet {
+namespace ringlet::head_fit_test {
 namespace {
 
 using namespace test;
@@ -54,4 +54,4 @@ TEST(HeadFit, TakesTheSmallestTurnWhereRootsLeaveItOpen) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::head_fit_test

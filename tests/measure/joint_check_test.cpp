@@ -9,7 +9,7 @@
 
 #include "ringlet/groom/generate.h"
 
-namespace ringlet {
+namespace ringlet::joint_check_test {
 namespace {
 
 // A joint of which `axis` points up; it nods by some degrees, or turns over and over.
@@ -85,4 +85,4 @@ TEST(JointCheck, ASmallGroomMayBeFurtherThanItsSize) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::joint_check_test

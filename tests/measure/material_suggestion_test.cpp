@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace ringlet {
+namespace ringlet::material_suggestion_test {
 namespace {
 
 struct Case {
@@ -47,4 +47,4 @@ TEST(MaterialSuggestion, IsClearAwayFromEveryBoundOnly) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::material_suggestion_test

@@ -7,7 +7,7 @@
 
 #include "tests/measure/strand_samples.h"
 
-namespace ringlet {
+namespace ringlet::motion_measure_test {
 namespace {
 
 using namespace test;
@@ -230,4 +230,4 @@ TEST(MotionMeasure, RefusesAFrameThatIsNotFiniteAndGoesOn) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::motion_measure_test

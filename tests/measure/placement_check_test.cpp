@@ -7,7 +7,7 @@
 #include "ringlet/bodies/mesh_grid.h"
 #include "ringlet/groom/generate.h"
 
-namespace ringlet {
+namespace ringlet::placement_check_test {
 namespace {
 
 Groom head() {
@@ -121,4 +121,4 @@ TEST(PlacementCheck, BodiesOfTheWorldMayBeAnywhere) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::placement_check_test

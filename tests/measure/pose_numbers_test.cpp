@@ -8,7 +8,7 @@
 #include "ringlet/groom/generate.h"
 #include "ringlet/measure/groom_measure.h"
 
-namespace ringlet {
+namespace ringlet::pose_numbers_test {
 namespace {
 
 Groom twoStrands() {
@@ -61,4 +61,4 @@ TEST(PoseNumbers, EdgesWithoutLengthDoNotCount) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::pose_numbers_test

@@ -8,7 +8,7 @@
 #include "tests/measure/strand_samples.h"
 #include "tests/support/tolerances.h"
 
-namespace ringlet {
+namespace ringlet::shape_distance_test {
 namespace {
 
 using namespace test;
@@ -115,4 +115,4 @@ TEST(ShapeDistance, ErrorsNameTheStrand) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::shape_distance_test

@@ -10,7 +10,7 @@
 #include "tests/measure/strand_samples.h"
 #include "tests/support/tolerances.h"
 
-namespace ringlet {
+namespace ringlet::strand_measure_test {
 namespace {
 
 using namespace test;
@@ -274,4 +274,4 @@ TEST(StrandMeasureOfBrokenInput, IsAnErrorOrSane) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::strand_measure_test

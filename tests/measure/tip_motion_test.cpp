@@ -8,7 +8,7 @@
 
 #include "tests/measure/strand_samples.h"
 
-namespace ringlet {
+namespace ringlet::tip_motion_test {
 namespace {
 
 using test::kPi;
@@ -132,4 +132,4 @@ TEST(ClosingFrames, AreASecondOrHalf) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::tip_motion_test

@@ -9,7 +9,7 @@
 
 #include "ringlet/scene/head_pose.h"
 
-namespace ringlet {
+namespace ringlet::tip_ways_test {
 namespace {
 
 // Ten straight strands that stand on a plane, in centimetres.
@@ -74,4 +74,4 @@ TEST(TipWays, NameTheStrandThatIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::tip_ways_test

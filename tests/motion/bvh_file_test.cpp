@@ -11,7 +11,7 @@
 #include "ringlet/motion/bvh_stance.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet::test {
+namespace ringlet::test::bvh_file_test {
 namespace {
 
 // Two bones and a head: 10 up, 5 up, and the end 2 further. `channels` of the neck.
@@ -166,4 +166,4 @@ TEST(BvhFile, ReadsRealCaptures) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::bvh_file_test

@@ -14,7 +14,7 @@
 #include "tests/motion/skeleton_samples.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet::test {
+namespace ringlet::test::bvh_stance_test {
 namespace {
 
 struct Loaded {
@@ -293,4 +293,4 @@ TEST(BvhStance, AStatedUnitIsDoubted) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::bvh_stance_test

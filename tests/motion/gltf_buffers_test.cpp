@@ -12,7 +12,7 @@
 #include "tests/motion/gltf_samples.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet::test {
+namespace ringlet::test::gltf_buffers_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -127,4 +127,4 @@ TEST_F(GltfBuffers, SizesAreAskedFirst) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::gltf_buffers_test

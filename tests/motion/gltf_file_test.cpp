@@ -12,7 +12,7 @@
 #include "tests/motion/gltf_samples.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet::test {
+namespace ringlet::test::gltf_file_test {
 namespace {
 
 using nlohmann::json;
@@ -409,4 +409,4 @@ TEST(GltfFile, SurvivesBrokenFiles) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::gltf_file_test

@@ -7,7 +7,7 @@
 
 #include "tests/motion/gltf_samples.h"
 
-namespace ringlet::test {
+namespace ringlet::test::head_scalp_test {
 namespace {
 
 Vec3d carried(const HeadPose& pose, Vec3d x) { return pose.position + rotate(pose.rotation, x); }
@@ -134,4 +134,4 @@ TEST(SkinnedMesh, WeightsAreShares) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::head_scalp_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace ringlet::test {
+namespace ringlet::test::keyframes_test {
 namespace {
 
 Keyframes turning(double speed, double secondsPerKey, int count) {
@@ -179,4 +179,4 @@ TEST(Keyframes, OfTheirOwnTimesMayComeGliding) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::keyframes_test

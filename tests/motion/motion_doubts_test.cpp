@@ -13,7 +13,7 @@
 #include "tests/motion/gltf_samples.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet::test {
+namespace ringlet::test::motion_doubts_test {
 namespace {
 
 enum class Form { lone, chain, underRoot };
@@ -156,4 +156,4 @@ TEST(MotionDoubts, AnotherAxisThanGltfsIsNamed) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::motion_doubts_test

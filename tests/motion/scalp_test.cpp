@@ -11,7 +11,7 @@
 #include "ringlet/motion/skinned_mesh.h"
 #include "tests/motion/gltf_samples.h"
 
-namespace ringlet::test {
+namespace ringlet::test::scalp_test {
 
 namespace {
 
@@ -343,4 +343,4 @@ TEST(Scalp, BindsTenThousandRootsAsEachAlone) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::scalp_test

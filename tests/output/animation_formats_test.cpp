@@ -16,7 +16,7 @@
 #include "ringlet/output/animation_writer.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::animation_formats_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -270,4 +270,4 @@ INSTANTIATE_TEST_SUITE_P(AnimationFormats, Formats, testing::ValuesIn(cases()), 
 });
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::animation_formats_test

@@ -20,7 +20,7 @@
 #include "tests/support/memory_limit.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::cache_test {
 namespace {
 
 using test::contains;
@@ -565,4 +565,4 @@ TEST(Cache, HostileCountsTakeNoMemory) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::cache_test

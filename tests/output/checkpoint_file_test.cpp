@@ -9,7 +9,7 @@
 #include "ringlet/base/whole_file.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet::test {
+namespace ringlet::test::checkpoint_file_test {
 namespace {
 
 ::ringlet::Checkpoint sample() {
@@ -65,4 +65,4 @@ TEST(CheckpointFile, DifferencesAreSaid) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::checkpoint_file_test

@@ -14,7 +14,7 @@
 #include "ringlet/base/whole_file.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::exr_file_test {
 namespace {
 
 double valueOfHalf(std::uint32_t half) {
@@ -137,4 +137,4 @@ TEST(ExrFile, AFolderThatIsNotThereIsSaid) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::exr_file_test

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-namespace ringlet {
+namespace ringlet::finite_points_test {
 namespace {
 
 TEST(FinitePoints, StrandEndsWhereItWasLastFinite) {
@@ -39,4 +39,4 @@ TEST(FinitePoints, AreFiniteUnlessSomeNumberIsNot) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::finite_points_test

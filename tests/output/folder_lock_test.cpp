@@ -13,7 +13,7 @@
 
 #include "tests/support/test_support.h"
 
-namespace ringlet::test {
+namespace ringlet::test::folder_lock_test {
 namespace {
 
 TEST(FolderLock, IsForOneAtATime) {
@@ -82,4 +82,4 @@ TEST(FolderLock, NeedsAFolder) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::folder_lock_test

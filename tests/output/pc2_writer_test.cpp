@@ -11,7 +11,7 @@
 #include "ringlet/groom/groom_file.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::pc2_writer_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -85,4 +85,4 @@ TEST(Pc2Writer, IsGoneOnWithToTheSameBytes) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::pc2_writer_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace ringlet {
+namespace ringlet::positions_hash_test {
 namespace {
 
 TEST(PositionsHash, MatchesPublishedValues) {
@@ -27,4 +27,4 @@ TEST(PositionsHash, ShowsASingleBit) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::positions_hash_test

@@ -14,7 +14,7 @@
 
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::sheet_test {
 namespace {
 
 Groom strands(std::initializer_list<std::vector<Vec3f>> all) {
@@ -429,4 +429,4 @@ TEST(Sheet, KeepsPlacesInACheckpoint) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::sheet_test

@@ -38,7 +38,7 @@ extern "C" ssize_t pwrite(int file, const void* bytes, size_t count, off_t offse
   return syscall(SYS_pwrite64, file, bytes, count, offset);
 }
 
-namespace ringlet {
+namespace ringlet::torn_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -378,4 +378,4 @@ TEST(TornFiles, AFileHasOneWriter) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::torn_files_test

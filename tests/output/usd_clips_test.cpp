@@ -13,7 +13,7 @@
 #include "ringlet/output/usdc_reader.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::usd_clips_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -166,4 +166,4 @@ TEST(UsdClips, NothingIsLeftWithoutFrames) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::usd_clips_test

@@ -11,7 +11,7 @@
 #include "tests/support/memory_limit.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::usd_reader_test {
 namespace {
 
 using test::readText;
@@ -152,4 +152,4 @@ TEST(UsdReader, MemoryIsTakenForPointsThatAreThere) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::usd_reader_test

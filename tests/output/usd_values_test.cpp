@@ -16,7 +16,7 @@
 #include "ringlet/output/animation_writer.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::usd_values_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -287,4 +287,4 @@ TEST(UsdValues, WithoutBeingAskedNothingIsAdded) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::usd_values_test

@@ -13,7 +13,7 @@
 #include "tests/support/strict_usd.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::usd_writer_test {
 namespace {
 
 using test::readUsd;
@@ -206,4 +206,4 @@ TEST(UsdWriter, DecimalPointWhateverTheLocale) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::usd_writer_test

@@ -22,7 +22,7 @@
 #include "ringlet/output/usdc_reader.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::usdc_writer_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -301,4 +301,4 @@ TEST(UsdcReader, RefusesCratesOfOthers) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::usdc_writer_test

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace ringlet::test {
+namespace ringlet::test::docs_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -197,4 +197,4 @@ TEST(Docs, TheReadmeIsShort) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::docs_test

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace ringlet::test {
+namespace ringlet::test::include_rules_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -204,4 +204,4 @@ TEST(IncludeRules, ReferenceDerivesEverythingItself) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::include_rules_test

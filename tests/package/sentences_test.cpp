@@ -12,7 +12,7 @@
 
 #include "ringlet/base/host_words.h"
 
-namespace ringlet::test {
+namespace ringlet::test::sentences_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -105,4 +105,4 @@ TEST(Sentences, NameOptionsThatHaveOtherWords) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::sentences_test

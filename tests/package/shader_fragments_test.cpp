@@ -13,7 +13,7 @@
 
 #include "tests/support/test_support.h"
 
-namespace ringlet::test {
+namespace ringlet::test::shader_fragments_test {
 namespace {
 
 const std::filesystem::path kShaders = std::filesystem::path(RINGLET_SOURCE_DIR) / "shaders";
@@ -125,4 +125,4 @@ TEST(ShaderFragments, WhatNamesTheWorkgroupsSizeIncludesIt) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::shader_fragments_test

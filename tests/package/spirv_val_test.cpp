@@ -7,7 +7,7 @@
 #include "embedded_modules.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet::test {
+namespace ringlet::test::spirv_val_test {
 namespace {
 
 TEST(SpirvVal, EmbeddedShadersAreValid) {
@@ -25,4 +25,4 @@ TEST(SpirvVal, EmbeddedShadersAreValid) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::spirv_val_test

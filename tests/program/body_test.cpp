@@ -11,7 +11,7 @@
 #include "tests/support/strict_usd.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::body_test {
 namespace {
 
 using nlohmann::json;
@@ -132,4 +132,4 @@ TEST(BodyProgram, MistakesNameTheBody) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::body_test

@@ -7,7 +7,7 @@
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::command_line_test {
 namespace {
 
 using test::runProgram;
@@ -150,4 +150,4 @@ TEST(Devices, ListsThemOrSaysThereAreNone) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::command_line_test

@@ -8,7 +8,7 @@
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::confined_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -96,4 +96,4 @@ TEST_F(Confined, ResultsStayBelowTheScene) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::confined_test

@@ -8,7 +8,7 @@
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::conform_test {
 namespace {
 
 using nlohmann::json;
@@ -120,4 +120,4 @@ TEST_F(Conform, WrongUsageIsSaid) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::conform_test

@@ -14,7 +14,7 @@
 #include "tests/support/strict_usd.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::convert_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -452,4 +452,4 @@ TEST_F(Convert, AWrongCommandLineIsSaidAndExit2) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::convert_test

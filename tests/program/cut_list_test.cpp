@@ -10,7 +10,7 @@
 #include "tests/support/gpu_test.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::cut_list_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -107,4 +107,4 @@ TEST_F(CutListTest, AnythingElseOfThatNameIsRefused) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::cut_list_test

@@ -8,7 +8,7 @@
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::examples_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -37,4 +37,4 @@ TEST(Examples, EachSceneRuns) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::examples_test

@@ -13,7 +13,7 @@
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::fault_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -177,4 +177,4 @@ TEST_F(Fault, NothingWaitsForAFifo) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::fault_test

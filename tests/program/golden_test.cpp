@@ -11,7 +11,7 @@
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet::test {
+namespace ringlet::test::golden_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -90,4 +90,4 @@ TEST_F(Golden, AJumpWithBodiesIsBlurred) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::golden_test

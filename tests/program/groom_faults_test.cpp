@@ -23,7 +23,7 @@
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::groom_faults_test {
 namespace {
 
 using namespace test;
@@ -589,4 +589,4 @@ TEST_F(GroomFaults, EveryCommandCutsAFileOfPointsWhereTheNumberIsSaid) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::groom_faults_test

@@ -14,7 +14,7 @@
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::info_test {
 namespace {
 
 using namespace test;
@@ -305,4 +305,4 @@ TEST_F(UsdGroom, IsConverted) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::info_test

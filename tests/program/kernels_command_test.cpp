@@ -6,7 +6,7 @@
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::kernels_command_test {
 namespace {
 
 using nlohmann::json;
@@ -97,4 +97,4 @@ TEST_F(Kernels, ThereAreNoMoreThanThereAre) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::kernels_command_test

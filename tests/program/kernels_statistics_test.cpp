@@ -3,7 +3,7 @@
 
 #include "program/device/kernels_statistics.h"
 
-namespace ringlet::program {
+namespace ringlet::program::kernels_statistics_test {
 namespace {
 
 using Statistics = std::vector<gpu::KernelStatistic>;
@@ -52,4 +52,4 @@ TEST(KernelsStatistics, TheLineHasRegistersSpillsMemoryAndCode) {
 }
 
 }  // namespace
-}  // namespace ringlet::program
+}  // namespace ringlet::program::kernels_statistics_test

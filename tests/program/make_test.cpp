@@ -5,7 +5,7 @@
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::make_test {
 namespace {
 
 using test::runProgram;
@@ -65,4 +65,4 @@ TEST(Make, SaysWhereItCannotWrite) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::make_test

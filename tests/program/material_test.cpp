@@ -10,7 +10,7 @@
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::material_test {
 namespace {
 
 using nlohmann::json;
@@ -313,4 +313,4 @@ TEST(SimulateMaterial, HelpNamesTheOptions) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::material_test

@@ -9,7 +9,7 @@
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::measure_test {
 namespace {
 
 using namespace test;
@@ -346,4 +346,4 @@ TEST(Measure, PlotsThatCannotBeAreRefused) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::measure_test

@@ -13,7 +13,7 @@
 #include "tests/scenes/joint_samples.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::motion_file_test {
 namespace {
 
 using nlohmann::json;
@@ -346,4 +346,4 @@ TEST(MotionFile, ARunDoesNotGoOnWithAnotherBuffer) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::motion_file_test

@@ -19,7 +19,7 @@
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::outputs_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -365,4 +365,4 @@ TEST_F(Outputs, AnotherProgramReadsTheCrate) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::outputs_test

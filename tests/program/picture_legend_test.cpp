@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace ringlet::program {
+namespace ringlet::program::picture_legend_test {
 namespace {
 
 constexpr Colour kGrey{10, 10, 10};
@@ -45,4 +45,4 @@ TEST(PictureLegend, FitsEverySize) {
 }
 
 }  // namespace
-}  // namespace ringlet::program
+}  // namespace ringlet::program::picture_legend_test

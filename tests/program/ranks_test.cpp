@@ -13,7 +13,7 @@
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::ranks_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -202,4 +202,4 @@ TEST_F(Ranks, WhatIsWrongIsSaidOnce) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::ranks_test

@@ -5,7 +5,7 @@
 
 #include "tests/program/rendered_run.h"
 
-namespace ringlet {
+namespace ringlet::render_colours_test {
 namespace {
 
 using nlohmann::json;
@@ -136,4 +136,4 @@ TEST_F(RenderColours, WhatMakesNoSenseIsRefused) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::render_colours_test

@@ -9,7 +9,7 @@
 #include "tests/motion/gltf_samples.h"
 #include "tests/program/rendered_run.h"
 
-namespace ringlet {
+namespace ringlet::render_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -190,4 +190,4 @@ TEST_F(RenderFiles, WhatMakesNoSenseIsRefused) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::render_files_test

@@ -10,7 +10,7 @@
 
 #include "tests/program/rendered_run.h"
 
-namespace ringlet {
+namespace ringlet::render_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -220,4 +220,4 @@ TEST_F(Render, WhatMakesNoSenseIsRefused) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::render_test

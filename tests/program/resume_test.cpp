@@ -14,7 +14,7 @@
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::resume_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -396,4 +396,4 @@ TEST_P(Resume, AnInputIsNotOverwritten) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::resume_test

@@ -15,7 +15,7 @@
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::run_folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -234,4 +234,4 @@ TEST_F(Folders, ASecondSignalOfAnyKindEndsAtOnce) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::run_folder_test

@@ -11,7 +11,7 @@
 #include "program/measure/measure_report.h"
 #include "tests/measure/strand_samples.h"
 
-namespace ringlet::program {
+namespace ringlet::program::run_report_test {
 namespace {
 
 using nlohmann::json;
@@ -305,4 +305,4 @@ TEST(MeasureReport, EveryNumberIsInItsUnit) {
 }
 
 }  // namespace
-}  // namespace ringlet::program
+}  // namespace ringlet::program::run_report_test

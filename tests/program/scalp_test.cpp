@@ -15,7 +15,7 @@
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::scalp_test {
 namespace {
 
 using nlohmann::json;
@@ -212,4 +212,4 @@ TEST(ScalpProgram, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::scalp_test

@@ -13,7 +13,7 @@
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::scene_file_test {
 namespace {
 
 using nlohmann::json;
@@ -346,4 +346,4 @@ TEST(SceneFileProgram, KeysArePrinted) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::scene_file_test

@@ -8,7 +8,7 @@
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet::test {
+namespace ringlet::test::scene_forces_test {
 namespace {
 
 using nlohmann::json;
@@ -108,4 +108,4 @@ TEST_F(SceneForcesProgram, AnAnimationIsFollowed) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::scene_forces_test

@@ -9,7 +9,7 @@
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet::test {
+namespace ringlet::test::scene_keys_test {
 namespace {
 
 using nlohmann::json;
@@ -79,4 +79,4 @@ TEST_F(SceneKeysProgram, OfContactsAreForTheDevice) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::scene_keys_test

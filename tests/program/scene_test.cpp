@@ -13,7 +13,7 @@
 #include "tests/support/test_support.h"
 #include "tests/support/tolerances.h"
 
-namespace ringlet {
+namespace ringlet::scene_test {
 namespace {
 
 using nlohmann::json;
@@ -479,4 +479,4 @@ TEST(Scene, MistakesAreOneSentence) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::scene_test

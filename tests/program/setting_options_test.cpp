@@ -11,7 +11,7 @@
 
 #include "ringlet/scene/settings_fields.h"
 
-namespace ringlet::program {
+namespace ringlet::program::setting_options_test {
 namespace {
 
 // The settings as a command line leaves them, or what CLI11 says of it.
@@ -101,4 +101,4 @@ TEST(SettingsFields, SayWhichMayNotChange) {
 }
 
 }  // namespace
-}  // namespace ringlet::program
+}  // namespace ringlet::program::setting_options_test

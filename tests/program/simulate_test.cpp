@@ -15,7 +15,7 @@
 #include "tests/support/strict_usd.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::simulate_test {
 namespace {
 
 using nlohmann::json;
@@ -544,4 +544,4 @@ TEST_F(Interruption, AKilledRunLeavesItsFrames) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::simulate_test

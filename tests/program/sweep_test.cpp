@@ -15,7 +15,7 @@
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::sweep_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -424,4 +424,4 @@ TEST_F(Sweep, WhatMakesNoSenseIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::sweep_test

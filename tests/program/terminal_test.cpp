@@ -13,7 +13,7 @@
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::terminal_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -170,4 +170,4 @@ TEST_F(Terminal, NothingIsPrintedElsewhere) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::terminal_test

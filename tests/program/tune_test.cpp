@@ -11,7 +11,7 @@
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::tune_test {
 namespace {
 
 using nlohmann::json;
@@ -332,4 +332,4 @@ TEST_F(Tune, WrongCommandLinesAndHairAreRefused) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::tune_test

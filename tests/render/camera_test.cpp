@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace ringlet {
+namespace ringlet::camera_test {
 namespace {
 
 // Across and up, as shares of the picture's half.
@@ -92,4 +92,4 @@ TEST(Camera, AnOutlineShowsNearlyAll) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::camera_test

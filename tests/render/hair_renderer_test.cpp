@@ -18,7 +18,7 @@
 #include "ringlet/render/stretch_colours.h"
 #include "tests/support/gpu_test.h"
 
-namespace ringlet::test {
+namespace ringlet::test::hair_renderer_test {
 namespace {
 
 struct Scene {
@@ -456,4 +456,4 @@ TEST_F(HairRendererTest, StretchIsTheColourOfTheLongestEdge) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::hair_renderer_test

@@ -12,7 +12,7 @@
 #include "ringlet_shaders/scatter_probe_test.h"
 #include "tests/support/gpu_test.h"
 
-namespace ringlet::test {
+namespace ringlet::test::scatter_probe_test {
 namespace {
 
 using layout::vec4;
@@ -86,4 +86,4 @@ TEST_F(ScatterProbe, IsTheReference) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::scatter_probe_test

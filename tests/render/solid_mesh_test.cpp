@@ -8,7 +8,7 @@
 
 #include "ringlet/bodies/icosphere.h"
 
-namespace ringlet {
+namespace ringlet::solid_mesh_test {
 namespace {
 
 double areaOf(const TriangleMesh& mesh) {
@@ -50,4 +50,4 @@ TEST(SolidMesh, LargeBodiesHaveBoundedNumbersOfPatches) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::solid_mesh_test

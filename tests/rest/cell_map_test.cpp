@@ -6,7 +6,7 @@
 #include <map>
 #include <random>
 
-namespace ringlet {
+namespace ringlet::cell_map_test {
 namespace {
 
 TEST(CellMap, HoldsWhatAMapHolds) {
@@ -39,4 +39,4 @@ TEST(CellMap, AValueThatIsThereStays) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::cell_map_test

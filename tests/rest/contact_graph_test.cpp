@@ -11,7 +11,7 @@
 #include "ringlet/rest/strand_order.h"
 #include "tests/rest/contact_samples.h"
 
-namespace ringlet {
+namespace ringlet::contact_graph_test {
 namespace {
 
 using namespace test;
@@ -258,4 +258,4 @@ TEST(ContactGraph, OverlapsOfManyStrandsAreExact) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::contact_graph_test

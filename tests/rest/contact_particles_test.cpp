@@ -9,7 +9,7 @@
 
 #include "tests/rest/contact_samples.h"
 
-namespace ringlet {
+namespace ringlet::contact_particles_test {
 namespace {
 
 using namespace test;
@@ -215,4 +215,4 @@ TEST(ContactParticles, DenseStrandsAreThinned) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::contact_particles_test

@@ -6,7 +6,7 @@
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/material_presets.h"
 
-namespace ringlet {
+namespace ringlet::material_dials_test {
 namespace {
 
 TEST(Dials, AtTheirDefaultsChangeNothing) {
@@ -106,4 +106,4 @@ TEST(Dials, BendDampingIsKeptWhereItCannotFeedOnItself) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::material_dials_test

@@ -13,7 +13,7 @@
 #include "ringlet/rest/toml_file.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::material_file_test {
 namespace {
 
 std::string errorOf(const std::string& text) {
@@ -331,4 +331,4 @@ TEST(LoadMaterial, TakesPresetsAndFiles) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::material_file_test

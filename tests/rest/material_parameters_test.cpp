@@ -9,7 +9,7 @@
 
 #include "ringlet/rest/rest_state.h"
 
-namespace ringlet {
+namespace ringlet::material_parameters_test {
 namespace {
 
 // What has to hold for any row: text a person can read, ranges within one another, a default that is usual.
@@ -198,4 +198,4 @@ TEST(MaterialOfStrand, HangsOnSeedAndIndexAlone) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::material_parameters_test

@@ -10,7 +10,7 @@
 #include "ringlet/rest/rest_state.h"
 #include "tests/equations/strand_fixtures.h"
 
-namespace ringlet {
+namespace ringlet::material_presets_test {
 namespace {
 
 using reference::test::groomOf;
@@ -126,4 +126,4 @@ TEST(Presets, NeedNoMoreThanFourStepsPerFrame) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::material_presets_test

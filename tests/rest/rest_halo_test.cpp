@@ -14,7 +14,7 @@
 #include "ringlet/rest/rest_part.h"
 #include "tests/rest/contact_samples.h"
 
-namespace ringlet::test {
+namespace ringlet::test::rest_halo_test {
 namespace {
 
 struct Whole {
@@ -153,4 +153,4 @@ TEST(RestHalo, EveryStrandIsInOnePart) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::rest_halo_test

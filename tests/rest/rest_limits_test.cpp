@@ -10,7 +10,7 @@
 #include "ringlet/rest/rest_state.h"
 #include "tests/rest/contact_samples.h"
 
-namespace ringlet {
+namespace ringlet::rest_limits_test {
 namespace {
 
 using namespace test;
@@ -258,4 +258,4 @@ TEST(RestLimits, SettingsAreRefusedJustOutsideTheirRanges) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::rest_limits_test

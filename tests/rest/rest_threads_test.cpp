@@ -9,7 +9,7 @@
 #include "ringlet/rest/strand_order.h"
 #include "tests/rest/contact_samples.h"
 
-namespace ringlet {
+namespace ringlet::rest_threads_test {
 namespace {
 
 using namespace test;
@@ -74,4 +74,4 @@ TEST(RestThreads, LeaveNoTraceInGeometry) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::rest_threads_test

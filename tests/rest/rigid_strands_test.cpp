@@ -12,7 +12,7 @@
 #include "ringlet/rest/rest_state.h"
 #include "tests/rest/contact_samples.h"
 
-namespace ringlet {
+namespace ringlet::rigid_strands_test {
 namespace {
 
 using namespace test;
@@ -184,4 +184,4 @@ TEST(RigidStrands, CoordinatesBeyondAllSenseAreRefusedByNameAndValue) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::rigid_strands_test

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-namespace ringlet {
+namespace ringlet::root_spacing_test {
 namespace {
 
 double byAllPairs(const std::vector<Vec3d>& points) {
@@ -61,4 +61,4 @@ TEST(RootSpacing, OfNothingIsZero) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::root_spacing_test

@@ -12,7 +12,7 @@
 #include "ringlet/rest/contact_graph.h"
 #include "tests/rest/contact_samples.h"
 
-namespace ringlet {
+namespace ringlet::strand_order_test {
 namespace {
 
 using namespace test;
@@ -106,4 +106,4 @@ TEST(StrandOrder, BringsOverlappingStrandsTogether) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::strand_order_test

@@ -12,7 +12,7 @@
 #include "ringlet/scenes/scene_file.h"
 #include "tests/support/gpu_test.h"
 
-namespace ringlet {
+namespace ringlet::divided_hair_test {
 namespace {
 
 using DividedHair = test::GpuTest;
@@ -57,4 +57,4 @@ TEST_F(DividedHair, NeedsAStrandADevice) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::divided_hair_test

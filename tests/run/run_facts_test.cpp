@@ -11,7 +11,7 @@
 
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::run_facts_test {
 namespace {
 
 TEST(RunFacts, EveryFileThatMovesHairIsAnInput) {
@@ -99,4 +99,4 @@ TEST(RunFacts, EveryFileCountsByItsContent) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::run_facts_test

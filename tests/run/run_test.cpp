@@ -15,7 +15,7 @@
 #include "tests/support/gpu_test.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::run_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -107,4 +107,4 @@ TEST_F(RunTest, HairsThatFollowNeedAMover) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::run_test

@@ -13,7 +13,7 @@
 #include "ringlet/rest/rest_part.h"
 #include "ringlet/rest/strand_order.h"
 
-namespace ringlet {
+namespace ringlet::strand_parts_test {
 namespace {
 
 Groom head(int strandCount, double varyLength = 0) {
@@ -103,4 +103,4 @@ TEST(StrandParts, MoreThanStrandsAreRefused) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::strand_parts_test

@@ -12,7 +12,7 @@
 
 #include "ringlet/run/frame_sink.h"
 
-namespace ringlet {
+namespace ringlet::writer_thread_test {
 namespace {
 
 TEST(WriterThread, DoesJobsInOrderOnAnotherThread) {
@@ -181,4 +181,4 @@ TEST_F(Frames, ThoseAfterAFailureAreNotCounted) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::writer_thread_test

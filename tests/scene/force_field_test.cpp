@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace ringlet {
+namespace ringlet::force_field_test {
 namespace {
 
 TEST(ForceFieldBetween, EveryNumberGoesEvenly) {
@@ -48,4 +48,4 @@ TEST(ForceFieldBetween, EveryNumberGoesEvenly) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::force_field_test

@@ -3,7 +3,7 @@
 
 #include "ringlet/scene/keyframes.h"
 
-namespace ringlet::test {
+namespace ringlet::test::keyframe_cut_test {
 namespace {
 
 // 1 m/s along X, a jump of 10 m along Z between the fourth key and the fifth, and on at 2 m/s.
@@ -37,4 +37,4 @@ TEST(KeyframeCut, GoesOnAsItCame) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::keyframe_cut_test

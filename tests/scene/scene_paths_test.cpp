@@ -12,7 +12,7 @@
 #include "tests/support/scene_path_cases.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::scene_paths_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -107,4 +107,4 @@ TEST(ScenePaths, APathHoldsNoNul) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::scene_paths_test

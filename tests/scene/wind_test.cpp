@@ -10,7 +10,7 @@
 #include <limits>
 #include <numbers>
 
-namespace ringlet::test {
+namespace ringlet::test::wind_test {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
@@ -152,4 +152,4 @@ TEST(EvenWind, IsTheSameForTheSameSeedOnly) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::wind_test

@@ -20,7 +20,7 @@
 #include "tests/support/gpu_test.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet::test {
+namespace ringlet::test::body_scene_test {
 namespace {
 
 constexpr double kDeepestAllowed = 0.0005;  // [m]
@@ -242,4 +242,4 @@ TEST_F(BodyScene, AStrandHangsInTheWindAtItsAngle) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::body_scene_test

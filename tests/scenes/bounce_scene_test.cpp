@@ -3,7 +3,7 @@
 
 #include "tests/scenes/scene_runs.h"
 
-namespace ringlet::test {
+namespace ringlet::test::bounce_scene_test {
 namespace {
 
 using Bounce = SceneTest;
@@ -39,4 +39,4 @@ TEST_F(Bounce, TheStretchLimitHoldsAndTheCurlComesBack) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::bounce_scene_test

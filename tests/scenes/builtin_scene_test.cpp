@@ -9,7 +9,7 @@
 
 #include "ringlet/rest/rest_state.h"
 
-namespace ringlet::test {
+namespace ringlet::test::builtin_scene_test {
 namespace {
 
 // How far a pose is from another: metres and radians, added.
@@ -216,4 +216,4 @@ TEST(BuiltinScene, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::builtin_scene_test

@@ -15,7 +15,7 @@
 #include "tests/support/tolerances.h"
 #include "tests/support/varying_curls.h"
 
-namespace ringlet::test {
+namespace ringlet::test::calm_sweep_test {
 namespace {
 
 constexpr int kSeconds = 20, kFramesPerSecond = 24;
@@ -140,4 +140,4 @@ TEST_F(CalmSweep, APushedCurlThatVariesComesToRest) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::calm_sweep_test

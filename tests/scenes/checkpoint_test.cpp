@@ -14,7 +14,7 @@
 #include "tests/support/parity.h"
 #include "tests/support/sample_bodies.h"
 
-namespace ringlet::test {
+namespace ringlet::test::checkpoint_test {
 namespace {
 
 // What goes on in a run, and for how long.
@@ -228,4 +228,4 @@ TEST_F(Checkpoint, TheReferenceGoesOnWithTheSameBits) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::checkpoint_test

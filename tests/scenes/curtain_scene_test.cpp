@@ -1,7 +1,7 @@
 // curtain: two sheets of limp curls swing into each other and do not pass.
 #include "tests/scenes/contact_runs.h"
 
-namespace ringlet::test {
+namespace ringlet::test::curtain_scene_test {
 namespace {
 
 class Curtain : public ContactSceneTest {};
@@ -15,4 +15,4 @@ TEST_F(Curtain, SheetsCrossHundredsOfTimesWithoutContacts) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::curtain_scene_test

@@ -11,7 +11,7 @@
 #include "ringlet/measure/tip_ways.h"
 #include "tests/scenes/scene_runs.h"
 
-namespace ringlet::test {
+namespace ringlet::test::dense_motion_test {
 namespace {
 
 // Against explicit contacts: a volume lets no lock turn or shear within a cell, so single frames differ by
@@ -199,4 +199,4 @@ TEST_F(DenseMotion, NoBuiltInSceneIsCut) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::dense_motion_test

@@ -4,7 +4,7 @@
 
 #include "tests/scenes/scene_runs.h"
 
-namespace ringlet::test {
+namespace ringlet::test::dials_scene_test {
 namespace {
 
 struct Found {
@@ -82,4 +82,4 @@ TEST_F(DialsScene, WeightIsAsMuchGravity) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::dials_scene_test

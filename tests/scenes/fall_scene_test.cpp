@@ -1,7 +1,7 @@
 // fall: a swatch droops onto another below it, and lies there.
 #include "tests/scenes/contact_runs.h"
 
-namespace ringlet::test {
+namespace ringlet::test::fall_scene_test {
 namespace {
 
 class Fall : public ContactSceneTest {};
@@ -15,4 +15,4 @@ TEST_F(Fall, SwatchesCrossWithoutContacts) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::fall_scene_test

@@ -15,7 +15,7 @@
 #include "tests/support/parity.h"
 #include "tests/support/tolerances.h"
 
-namespace ringlet::test {
+namespace ringlet::test::frames_in_flight_test {
 namespace {
 
 // What a frame is told.
@@ -218,4 +218,4 @@ TEST_F(FramesInFlight, MayBeLeftInFlight) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::frames_in_flight_test

@@ -12,7 +12,7 @@
 #include "ringlet/scenes/load_scene.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::goal_animation_test {
 namespace {
 
 constexpr int kFrames = 5;
@@ -127,4 +127,4 @@ TEST(GoalFiles, AreAnimationsOrPoses) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::goal_animation_test

@@ -8,7 +8,7 @@
 
 #include "tests/scenes/scene_runs.h"
 
-namespace ringlet::test {
+namespace ringlet::test::hanging_curl_scene_test {
 namespace {
 
 using HangingCurl = SceneTest;
@@ -165,4 +165,4 @@ TEST_F(HangingCurl, ComesBackFromAShake) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::hanging_curl_scene_test

@@ -1,7 +1,7 @@
 // head_shake: a soft curl shaken hard keeps its core's length by the core spring, and unwinds without.
 #include "tests/scenes/scene_runs.h"
 
-namespace ringlet::test {
+namespace ringlet::test::head_shake_scene_test {
 namespace {
 
 class HeadShake : public SceneTest {
@@ -38,4 +38,4 @@ TEST_F(HeadShake, TheCoreSpringKeepsItFromUnwindingAtFourSteps) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::head_shake_scene_test

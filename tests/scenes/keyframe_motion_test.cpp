@@ -14,7 +14,7 @@
 #include "ringlet/solver/simulation.h"
 #include "tests/support/gpu_test.h"
 
-namespace ringlet::test {
+namespace ringlet::test::keyframe_motion_test {
 namespace {
 
 constexpr double kStepsPerSecond = 192;
@@ -89,4 +89,4 @@ TEST_F(KeyframeMotion, SteadyMotionGivesNoJitter) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::keyframe_motion_test

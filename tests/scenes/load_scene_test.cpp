@@ -19,7 +19,7 @@
 #include "tests/motion/gltf_samples.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::load_scene_test {
 namespace {
 
 const std::string kCurl = "[groom]\ngenerate = \"curl\"\nparticles = 16\n";
@@ -192,4 +192,4 @@ TEST(LoadScene, HairsGrowOnTheMeshAsTheHeadSeesIt) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::load_scene_test

@@ -12,7 +12,7 @@
 #include "tests/motion/gltf_samples.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet::test {
+namespace ringlet::test::motion_reach_test {
 namespace {
 
 // A second of 24 frames, in which the head goes `metres` along X.
@@ -101,4 +101,4 @@ TEST_F(MotionReach, AHeadThatOnlyJumpsIsSaid) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::motion_reach_test

@@ -1,7 +1,7 @@
 // pile: a swatch is pressed crosswise into a swatch and held there.
 #include "tests/scenes/contact_runs.h"
 
-namespace ringlet::test {
+namespace ringlet::test::pile_scene_test {
 namespace {
 
 class Pile : public ContactSceneTest {};
@@ -15,4 +15,4 @@ TEST_F(Pile, SwatchesCrossWithoutContacts) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::pile_scene_test

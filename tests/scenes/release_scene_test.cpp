@@ -8,7 +8,7 @@
 #include "tests/scenes/scene_runs.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet::test {
+namespace ringlet::test::release_scene_test {
 namespace {
 
 class Release : public SceneTest {
@@ -90,4 +90,4 @@ TEST_F(Release, CurlycueKeepsItsCurlsInAShake) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::release_scene_test

@@ -7,7 +7,7 @@
 #include "tests/support/gpu_test.h"
 #include "tests/support/parity.h"
 
-namespace ringlet::test {
+namespace ringlet::test::repeat_test {
 namespace {
 
 class Repeat : public GpuTest {
@@ -168,4 +168,4 @@ TEST_F(Repeat, StateWithContactsCanBePutBackAndRoomMadeInBetween) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::repeat_test

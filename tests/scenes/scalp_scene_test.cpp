@@ -14,7 +14,7 @@
 #include "tests/support/gpu_test.h"
 #include "tests/support/parity.h"
 
-namespace ringlet::test {
+namespace ringlet::test::scalp_scene_test {
 namespace {
 
 constexpr double kLength = 0.15;  // of a curl [m]
@@ -137,4 +137,4 @@ TEST_F(ScalpScene, ASlowRigidMeshCarriesHairRigidly) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::scalp_scene_test

@@ -12,7 +12,7 @@
 #include "tests/motion/gltf_samples.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::scene_camera_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -170,4 +170,4 @@ TEST_F(SceneCameras, BrokenFilesAreRefused) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::scene_camera_test

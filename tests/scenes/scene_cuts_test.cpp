@@ -10,7 +10,7 @@
 #include "ringlet/scenes/scene_text.h"
 #include "tests/support/gpu_test.h"
 
-namespace ringlet {
+namespace ringlet::scene_cuts_test {
 namespace {
 
 // Two straight strands of five particles.
@@ -132,4 +132,4 @@ TEST_F(SceneCutsRun, WhatWasCutBeforeIsCutAtTheStart) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::scene_cuts_test

@@ -17,7 +17,7 @@
 #include "ringlet/scenes/scene_parts.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::scene_file_test {
 namespace {
 
 // With a groom, where it has none.
@@ -723,4 +723,4 @@ TEST(SceneParts, BuiltinScenesBecomeFiles) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::scene_file_test

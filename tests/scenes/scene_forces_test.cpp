@@ -12,7 +12,7 @@
 #include "tests/scenes/joint_samples.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::scene_forces_test {
 namespace {
 
 // Two straight strands of five particles, 4 cm long, 2 cm apart.
@@ -279,4 +279,4 @@ TEST(SceneForces, MistakesAreNamed) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::scene_forces_test

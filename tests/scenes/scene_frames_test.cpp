@@ -9,7 +9,7 @@
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/scenes/scene_file.h"
 
-namespace ringlet {
+namespace ringlet::scene_frames_test {
 namespace {
 
 const std::string kShaken =
@@ -166,4 +166,4 @@ TEST(SceneFrames, TimeGoesOnWithOtherFramesASecond) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::scene_frames_test

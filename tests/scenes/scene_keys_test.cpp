@@ -9,7 +9,7 @@
 #include "ringlet/scenes/load_scene.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::scene_keys_test {
 namespace {
 
 const std::string kGroom = "[groom]\ngenerate = \"curl\"\n";
@@ -163,4 +163,4 @@ TEST(SceneKeys, AScenesStartAndStepsAreThoseOfItsKeys) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::scene_keys_test

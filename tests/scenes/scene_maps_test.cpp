@@ -11,7 +11,7 @@
 #include "ringlet/scenes/load_scene.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::scene_maps_test {
 namespace {
 
 const std::string kGroom = "[groom]\ngenerate = \"swatch\"\ncolumns = 3\nrows = 2\n";
@@ -217,4 +217,4 @@ TEST(SceneMaps, MistakesAreNamedWithLineAndRemedy) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::scene_maps_test

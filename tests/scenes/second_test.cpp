@@ -10,7 +10,7 @@
 #include "tests/support/parity.h"
 #include "tests/support/tolerances.h"
 
-namespace ringlet::test {
+namespace ringlet::test::second_test {
 namespace {
 
 class WholeSecond : public GpuTest {
@@ -75,4 +75,4 @@ TEST_F(WholeSecond, LostNumbersAreReported) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::second_test

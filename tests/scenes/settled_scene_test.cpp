@@ -14,7 +14,7 @@
 #include "tests/scenes/scene_runs.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet::test {
+namespace ringlet::test::settled_scene_test {
 namespace {
 
 // Found by a search over K_b, K_c, K_s and the smoothing length for the least root mean square of
@@ -130,4 +130,4 @@ TEST_F(Settled, CurlycueHangsWhereAnotherSimulatorHangsIt) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::settled_scene_test

@@ -11,7 +11,7 @@
 #include "tests/support/parity.h"
 #include "tests/support/tolerances.h"
 
-namespace ringlet::test {
+namespace ringlet::test::stiff_solve_test {
 namespace {
 
 class StiffSolve : public GpuTest {
@@ -70,4 +70,4 @@ TEST_F(StiffSolve, StaysWithDoubleUpToTenThousandWeights) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::stiff_solve_test

@@ -11,7 +11,7 @@
 #include "tests/support/test_support.h"
 #include "tests/support/tolerances.h"
 
-namespace ringlet::test {
+namespace ringlet::test::still_test {
 namespace {
 
 // Largest distance from the rest pose, as a share of each strand's polyline length.
@@ -92,4 +92,4 @@ TEST_F(Still, ConstantVelocityStaysRigid) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::still_test

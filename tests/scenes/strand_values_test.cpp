@@ -13,7 +13,7 @@
 #include "ringlet/scenes/scene_maps.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::strand_values_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -197,4 +197,4 @@ TEST_F(StrandValues, MistakesAreNamed) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::strand_values_test

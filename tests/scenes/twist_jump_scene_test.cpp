@@ -10,7 +10,7 @@
 #include "tests/scenes/scene_runs.h"
 #include "tests/support/tolerances.h"
 
-namespace ringlet::test {
+namespace ringlet::test::twist_jump_scene_test {
 namespace {
 
 class TwistJump : public SceneTest {
@@ -75,4 +75,4 @@ TEST_F(TwistJump, FramesAreContinuousOnTheSmoothedStrandAndJumpOnTheRaw) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::twist_jump_scene_test

@@ -2,7 +2,7 @@
 // are apart again.
 #include "tests/scenes/contact_runs.h"
 
-namespace ringlet::test {
+namespace ringlet::test::two_curls_scene_test {
 namespace {
 
 class TwoCurls : public ContactSceneTest {};
@@ -33,4 +33,4 @@ TEST_F(TwoCurls, ComeToRest) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::two_curls_scene_test

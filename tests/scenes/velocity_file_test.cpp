@@ -9,7 +9,7 @@
 
 #include "ringlet/base/little_endian.h"
 
-namespace ringlet {
+namespace ringlet::velocity_file_test {
 namespace {
 
 struct Array {
@@ -131,4 +131,4 @@ TEST(VelocityFile, SpoiltFilesAreReadOrRefused) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::velocity_file_test

@@ -3,7 +3,7 @@
 
 #include "tests/scenes/scene_runs.h"
 
-namespace ringlet::test {
+namespace ringlet::test::walk_cycle_scene_test {
 namespace {
 
 class WalkCycle : public SceneTest {
@@ -47,4 +47,4 @@ TEST_F(WalkCycle, FramesOnTheRawStrandSpinTheCurl) {
 }
 
 }  // namespace
-}  // namespace ringlet::test
+}  // namespace ringlet::test::walk_cycle_scene_test

@@ -12,7 +12,7 @@
 #include "tests/scenes/joint_samples.h"
 #include "tests/support/test_support.h"
 
-namespace ringlet {
+namespace ringlet::world_bind_test {
 namespace {
 
 using test::kJointAxes;
@@ -130,4 +130,4 @@ TEST(WorldBind, BodiesStandWhereTheyArePlaced) {
 }
 
 }  // namespace
-}  // namespace ringlet
+}  // namespace ringlet::world_bind_test

@@ -7,7 +7,7 @@
 
 #include "ringlet/bodies/icosphere.h"
 
-namespace ringlet::view {
+namespace ringlet::view::orbit_camera_test {
 namespace {
 
 const std::vector<Vec3d> kPoints{{-0.2, -0.4, -0.2}, {0.2, 0.2, 0.2}};
@@ -98,4 +98,4 @@ TEST(OrbitCamera, SolidsAreHitWhereTheyAreTurned) {
 }
 
 }  // namespace
-}  // namespace ringlet::view
+}  // namespace ringlet::view::orbit_camera_test

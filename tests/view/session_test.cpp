@@ -11,7 +11,7 @@
 #include "view/hair_pane.h"
 #include "view/mouse_control.h"
 
-namespace ringlet::view {
+namespace ringlet::view::session_test {
 namespace {
 
 struct Scene {
@@ -357,4 +357,4 @@ TEST_F(SessionTest, PanesDrawTheHairThatIsSimulated) {
 }
 
 }  // namespace
-}  // namespace ringlet::view
+}  // namespace ringlet::view::session_test

@@ -16,7 +16,7 @@
 #include "tests/support/test_support.h"
 #include "view/edit_history.h"
 
-namespace ringlet::view {
+namespace ringlet::view::sliders_test {
 namespace {
 
 std::map<std::string, Slider> allSliders() {
@@ -193,4 +193,4 @@ TEST(SavedScene, FindsItsFiles) {
 }
 
 }  // namespace
-}  // namespace ringlet::view
+}  // namespace ringlet::view::sliders_test

@@ -1,6 +1,7 @@
 // What the program returns to the shell.
 #pragma once
 
+#include "program/cli/standard_error.h"
 #include "ringlet/base/result.h"
 
 namespace ringlet::program {
@@ -41,6 +42,12 @@ inline int exitCodeOf(const Error& error) {
       break;
   }
   return kExitFailed;
+}
+
+/// Says what ended the command and returns its exit status.
+inline int fail(const char* command, const Error& error) {
+  say("ringlet {}: {}\n", command, error.message);
+  return exitCodeOf(error);
 }
 
 }  // namespace ringlet::program

@@ -12,7 +12,7 @@
 namespace ringlet::program {
 namespace {
 
-constexpr int kWidth = 30;  // characters of the bar itself; the line fits a terminal of 80
+constexpr int kBarWidth = 30;  // characters of the bar itself; the line fits a terminal of 80
 constexpr std::chrono::milliseconds kPause{80};  // between two updates: often enough to look alive
 constexpr std::chrono::seconds kLinePause{30};   // between two lines of a log
 
@@ -40,9 +40,9 @@ void ProgressBar::show(int finished) {
     return;
   }
   visible_ = true;
-  const int filled = static_cast<int>(static_cast<double>(finished) / count_ * kWidth);
+  const int filled = static_cast<int>(static_cast<double>(finished) / count_ * kBarWidth);
   sayAsItIs(fmt::format("\r  {} {}/{} [{:#<{}}{:.<{}}] {}\x1b[K", what_, finished, count_, "", filled, "",
-                        kWidth - filled, left));
+                        kBarWidth - filled, left));
   std::fflush(stderr);
 }
 

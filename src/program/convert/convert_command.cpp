@@ -35,7 +35,7 @@
 namespace ringlet::program {
 namespace {
 
-constexpr const char* kExample =
+constexpr const char* kConvertExample =
     "Examples:\n"
     "  ringlet convert out/hair.rgc hair.usda                    the same text as simulate writes\n"
     "  ringlet convert out/hair.rgc small.rgc --precision 16bit\n"
@@ -66,7 +66,7 @@ constexpr const char* kExample =
     "Exit status: 0 done, 1 something failed, 2 wrong usage.";
 
 // The command line as typed.
-struct Typed {
+struct TypedConvert {
   std::filesystem::path input, output;
   SceneReach reach = SceneReach::anywhere;
   std::string frames;
@@ -84,7 +84,7 @@ struct Typed {
   bool info = false, json = false, quiet = false, overwrite = false;
 };
 
-bool has(const Typed& typed, const char* value) {
+bool has(const TypedConvert& typed, const char* value) {
   return std::ranges::find(typed.values, value) != typed.values.end();
 }
 
@@ -99,7 +99,7 @@ std::string animationList(bool withNotes) {
 }
 
 // By the ending of its name; nothing where that says nothing.
-std::optional<ConvertTo> kindOf(const Typed& typed) {
+std::optional<ConvertTo> kindOf(const TypedConvert& typed) {
   const std::string extension = typed.output.extension().string();
   if (animationFormatOf(typed.output)) return ConvertTo::animation;
   if (extension == ".png") return ConvertTo::sheet;
@@ -110,7 +110,7 @@ std::optional<ConvertTo> kindOf(const Typed& typed) {
 }
 
 // The scene that IN was simulated from, where it is named.
-Result<std::optional<LoadedScene>> sceneOf(const Typed& typed) {
+Result<std::optional<LoadedScene>> sceneOf(const TypedConvert& typed) {
   if (typed.scene.empty()) return std::optional<LoadedScene>();
   const auto file = readScene(typed.scene, {}, typed.reach);
   if (!file) return file.error();
@@ -120,7 +120,7 @@ Result<std::optional<LoadedScene>> sceneOf(const Typed& typed) {
 }
 
 // Hair that follows the strands of IN, where it is asked for.
-Result<std::optional<FullHair>> fullHairOf(const Typed& typed, const Groom& rest, double metresPerUnit,
+Result<std::optional<FullHair>> fullHairOf(const TypedConvert& typed, const Groom& rest, double metresPerUnit,
                                            const CutList& cuts = {}, const LoadedScene* scene = nullptr) {
   if (!typed.hairs) return std::optional<FullHair>();
   const auto ground = scene ? hairGroundOf(*scene, typed.look) : hairGroundOf(typed.look, metresPerUnit);
@@ -132,8 +132,8 @@ Result<std::optional<FullHair>> fullHairOf(const Typed& typed, const Groom& rest
 }
 
 // The same, of an animation.
-Result<std::optional<FullHair>> fullHairOf(const Typed& typed, double metresPerUnit, const CutList& cuts,
-                                           const std::optional<LoadedScene>& scene) {
+Result<std::optional<FullHair>> fullHairOf(const TypedConvert& typed, double metresPerUnit,
+                                           const CutList& cuts, const std::optional<LoadedScene>& scene) {
   if (!typed.hairs) return std::optional<FullHair>();
   if (scene) return fullHairOf(typed, scene->groom, metresPerUnit, cuts, &*scene);
   const auto rest = readGroom(typed.groom, readingOf(typed.reading));
@@ -142,7 +142,7 @@ Result<std::optional<FullHair>> fullHairOf(const Typed& typed, double metresPerU
 }
 
 // Throws CLI11's error for what makes no sense together.
-void checkOptions(const Typed& typed) {
+void checkOptions(const TypedConvert& typed) {
   if (typed.output.empty() && !typed.info)
     throw CLI::ValidationError("OUT", "name the file to write, or say --info");
   if (typed.info && (!typed.output.empty() || typed.frame || !typed.frames.empty() ||
@@ -177,7 +177,7 @@ void checkOptions(const Typed& typed) {
     throw CLI::ValidationError("--usd-values", "velocities are written into .usdc and clips only");
 }
 
-UsdExtras usdExtras(const Typed& typed, double metresPerUnit) {
+UsdExtras usdExtras(const TypedConvert& typed, double metresPerUnit) {
   UsdExtras extras{
       .ids = has(typed, "id"), .velocities = has(typed, "velocities"), .clipFrames = typed.clips.value_or(0)};
   if (typed.tipWidth) extras.tipDiameter = static_cast<float>(*typed.tipWidth / metresPerUnit);
@@ -185,7 +185,7 @@ UsdExtras usdExtras(const Typed& typed, double metresPerUnit) {
 }
 
 // Which frames, checked against those there are.
-Result<FrameRange> chooseFrames(const Typed& typed, const AnimationReader& source) {
+Result<FrameRange> chooseFrames(const TypedConvert& typed, const AnimationReader& source) {
   const int count = source.frameCount();
   if (count == 0) return Error{fmt::format("{} holds no frame", typed.input.string())};
   FrameRange range{1, count};
@@ -198,7 +198,7 @@ Result<FrameRange> chooseFrames(const Typed& typed, const AnimationReader& sourc
 }
 
 // A writer begins with PATH.partial; that must not be what is read.
-Status checkOutput(const Typed& typed) {
+Status checkOutput(const TypedConvert& typed) {
   std::error_code code;
   for (const char* suffix : {"", ".partial"}) {
     const std::filesystem::path taken = typed.output.string() + suffix;
@@ -233,7 +233,7 @@ double bytesPerPoint(const AnimationReader& source) {
   return points > 0 ? static_cast<double>(source.byteCount()) / points : 0;
 }
 
-void printInfo(const Typed& typed, const AnimationReader& source) {
+void printInfo(const TypedConvert& typed, const AnimationReader& source) {
   const CacheHeader& header = source.header();
   const std::size_t strands = source.groom().strandCount(), particles = source.groom().firstPoint.back();
   const char* up = header.up == UpAxis::z ? "Z" : "Y";
@@ -266,7 +266,7 @@ void printInfo(const Typed& typed, const AnimationReader& source) {
   print("  points        {}\n", boundText(source.errorBound()));
 }
 
-void printOutcome(const Typed& typed, const Groom& groom, const std::vector<std::string>& warnings,
+void printOutcome(const TypedConvert& typed, const Groom& groom, const std::vector<std::string>& warnings,
                   const ConvertOutcome& outcome, int frameCount) {
   const std::size_t strands = groom.strandCount(), particles = groom.firstPoint.back();
   if (typed.json) {
@@ -288,7 +288,7 @@ void printOutcome(const Typed& typed, const Groom& groom, const std::vector<std:
 }
 
 // A groom is one pose: another program's, made into what Ringlet writes.
-Status runGroomConvert(const Typed& typed) {
+Status runGroomConvert(const TypedConvert& typed) {
   if (typed.info)
     return Error{fmt::format("{} is a groom; `ringlet info` says what is in it", typed.input.string())};
   auto loaded = readGroom(typed.input, readingOf(typed.reading, typed.up == "Z"));
@@ -322,13 +322,13 @@ Status runGroomConvert(const Typed& typed) {
 }
 
 // What files of frames do not hold of an animation.
-std::vector<std::string> lostOf(const Typed& typed, const CacheHeader& header) {
+std::vector<std::string> lostOf(const TypedConvert& typed, const CacheHeader& header) {
   const ConvertTo kind = *kindOf(typed);
   if (kind != ConvertTo::frame && kind != ConvertTo::frameSequence) return {};
   return lostIn(typed.output, header.metresPerUnit, header.up == UpAxis::z);
 }
 
-Status runConvert(const Typed& typed) {
+Status runConvert(const TypedConvert& typed) {
   auto source = AnimationReader::open(typed.input);
   if (!source) return source.error();
   for (const std::string& warning : source->warnings()) say("ringlet convert: warning: {}\n", warning);
@@ -371,7 +371,7 @@ Status runConvert(const Typed& typed) {
   return {};
 }
 
-int run(const Typed& typed) {
+int run(const TypedConvert& typed) {
   const bool isGroom = isGroomFile(typed.input) && !holdsAnimation(typed.input);
   if (isGroom && (typed.frame || !typed.frames.empty() || !typed.precision.empty()))
     throw CLI::ValidationError("IN", "a groom has no frames and no precision");
@@ -388,17 +388,16 @@ int run(const Typed& typed) {
   if (!isGroom) checkOptions(typed);
   const Status done = isGroom ? runGroomConvert(typed) : runConvert(typed);
   if (done) return kExitFine;
-  say("ringlet convert: {}\n", done.error().message);
-  return exitCodeOf(done.error());
+  return fail("convert", done.error());
 }
 
 }  // namespace
 
 void addConvertCommand(CLI::App& app, int& exitCode) {
-  auto typed = std::make_shared<Typed>();
+  auto typed = std::make_shared<TypedConvert>();
   CLI::App* command =
       app.add_subcommand("convert", "Makes another file of an animation, or says what is in it");
-  command->footer(kExample);
+  command->footer(kConvertExample);
   command
       ->add_option("IN", typed->input,
                    "An animation: hair.usda, hair.usdc or hair.rgc, or their .partial; or a groom")

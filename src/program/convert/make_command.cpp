@@ -29,7 +29,7 @@ namespace ringlet::program {
 namespace {
 
 // The options of all three kinds: a curl uses the curl only, the others their own and what they share.
-struct Typed {
+struct TypedMake {
   std::filesystem::path file;
   CurlParameters curl;
   Variation variation;
@@ -42,7 +42,7 @@ struct Typed {
 };
 
 // On a scalp that is read first, where there is one.
-Result<Groom> makeTypedHead(Typed& typed) {
+Result<Groom> makeTypedHead(TypedMake& typed) {
   typed.head.curl = typed.curl;
   typed.head.variation = typed.variation;
   applySettingOptions(cutFields(), typed.cut, typed.head.cut);
@@ -54,7 +54,7 @@ Result<Groom> makeTypedHead(Typed& typed) {
   return makeHead(typed.head);
 }
 
-int write(const char* command, const Typed& typed, const Result<Groom>& groom) {
+int write(const char* command, const TypedMake& typed, const Result<Groom>& groom) {
   if (!groom) {
     say("{}: {}\n", command, groom.error().message);
     return kExitUsage;
@@ -85,7 +85,7 @@ CLI::Option* addNumber(CLI::App* command, const char* name, Number& value, const
   return option;
 }
 
-void addCurlOptions(CLI::App* command, Typed& typed) {
+void addCurlOptions(CLI::App* command, TypedMake& typed) {
   command->add_option("-o,--output", typed.file, "File to write: .obj, .hair or .ply")
       ->required()
       ->check(endsIn({".obj", ".hair", ".ply"}))
@@ -122,7 +122,7 @@ void addMakeCommand(CLI::App& app, int& exitCode) {
   make->require_subcommand(1);
   make->footer("Example:\n  ringlet make head --strands 2000 -o head.hair");
 
-  auto curl = std::make_shared<Typed>();
+  auto curl = std::make_shared<TypedMake>();
   CLI::App* curlCommand = make->add_subcommand("curl", "One curl, hanging along -Y from the origin");
   addCurlOptions(curlCommand, *curl);
   curlCommand->footer("Example:\n  ringlet make curl --radius 0.01 --turns 8 --length 0.25 -o curl.obj");
@@ -131,7 +131,7 @@ void addMakeCommand(CLI::App& app, int& exitCode) {
     exitCode = write("ringlet make curl", *curl, makeCurl(curl->curl));
   });
 
-  auto swatch = std::make_shared<Typed>();
+  auto swatch = std::make_shared<TypedMake>();
   CLI::App* swatchCommand =
       make->add_subcommand("swatch", "Curls side by side, hanging along -Y, columns along X");
   addCurlOptions(swatchCommand, *swatch);
@@ -148,7 +148,7 @@ void addMakeCommand(CLI::App& app, int& exitCode) {
     exitCode = write("ringlet make swatch", *swatch, makeSwatch(swatch->swatch));
   });
 
-  auto head = std::make_shared<Typed>();
+  auto head = std::make_shared<TypedMake>();
   CLI::App* headCommand =
       make->add_subcommand("head", "A head of curls about the origin, Y up, looking along +Z");
   // Before the numbers it sets: options are taken in this order.

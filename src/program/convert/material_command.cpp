@@ -30,7 +30,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kExample =
+constexpr const char* kMaterialExample =
     "Example:\n"
     "  ringlet material --list\n"
     "  ringlet material --suggest groom.usd -o hair.toml\n"
@@ -59,7 +59,7 @@ constexpr const char* kExample =
     "\n"
     "Exit status: 0 done, 1 something failed, 2 wrong usage.";
 
-struct Typed {
+struct TypedMaterial {
   std::string name;
   std::filesystem::path file, groom;
   std::optional<double> metresPerUnit;
@@ -150,7 +150,7 @@ Json jsonOfTables(const LoadedMaterial* loaded) {
   return json;
 }
 
-int list(const Typed& typed) {
+int list(const TypedMaterial& typed) {
   if (typed.json) {
     Json json;
     json["presets"] = Json::array();
@@ -167,7 +167,7 @@ int list(const Typed& typed) {
 }
 
 // Shows the preset that a groom looks like, and on standard error why.
-Result<std::string> suggested(const Typed& typed) {
+Result<std::string> suggested(const TypedMaterial& typed) {
   auto groom = readGroom(typed.groom, readingOf(typed.reading));
   if (!groom) return groom.error();
   if (typed.metresPerUnit) groom->groom.metresPerUnit = *typed.metresPerUnit;
@@ -177,26 +177,18 @@ Result<std::string> suggested(const Typed& typed) {
   return suggestion.preset;
 }
 
-int show(Typed& typed) {
+int show(TypedMaterial& typed) {
   if (!typed.groom.empty()) {
     auto name = suggested(typed);
-    if (!name) {
-      say("ringlet material: {}\n", name.error().message);
-      return exitCodeOf(name.error());
-    }
+    if (!name) return fail("material", name.error());
     typed.name = std::move(*name);
   }
   auto loaded = loadMaterial(typed.name);
-  if (!loaded) {
-    say("ringlet material: {}\n", loaded.error().message);
-    return exitCodeOf(loaded.error());
-  }
+  if (!loaded) return fail("material", loaded.error());
   for (const std::string& warning : loaded->warnings) say("ringlet material: warning: {}\n", warning);
   if (!typed.file.empty()) {
-    if (Status written = writeMaterial(typed.file, loaded->material, loaded->dials); !written) {
-      say("ringlet material: {}\n", written.error().message);
-      return exitCodeOf(written.error());
-    }
+    if (Status written = writeMaterial(typed.file, loaded->material, loaded->dials); !written)
+      return fail("material", written.error());
   }
 
   const std::string summary = presetSummary(typed.name);
@@ -241,10 +233,10 @@ std::string optionOf(const Parameter<MaterialDials>& dial) {
 }  // namespace
 
 void addMaterialCommand(CLI::App& app, int& exitCode) {
-  auto typed = std::make_shared<Typed>();
+  auto typed = std::make_shared<TypedMaterial>();
   CLI::App* command =
       app.add_subcommand("material", "Shows what hair can be made of: presets, files, every number");
-  command->footer(kExample);
+  command->footer(kMaterialExample);
   command
       ->add_option("MATERIAL", typed->name,
                    fmt::format("A preset ({}) or a .toml file", fmt::join(presetNames(), ", ")))

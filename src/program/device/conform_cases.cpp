@@ -22,8 +22,6 @@ namespace ringlet::program {
 namespace {
 
 using Outcome = Check::Outcome;
-using Tell = std::function<void(const Check&)>;
-
 // Sums the time between begin and end.
 class CompileClock : public CompileObserver {
  public:
@@ -35,10 +33,6 @@ class CompileClock : public CompileObserver {
   double milliseconds_ = 0;
   std::optional<Stopwatch> watch_;
 };
-
-Check failed(const std::string& name, const Error& error) {
-  return {.name = name, .outcome = Outcome::wrong, .detail = error.message};
-}
 
 // NaN is wrong.
 Check compared(const std::string& name, double figure, double tolerance, const std::string& detail,

@@ -2,8 +2,6 @@
 // reference by parity/ with the tests' tolerances.
 #pragma once
 
-#include <functional>
-
 #include "program/device/conform_check.h"
 #include "ringlet/solver/compute_device.h"
 
@@ -16,6 +14,6 @@ struct ConformCases {
 };
 
 /// Hands each line to `tell` when it is there.
-void runCases(const ConformCases& cases, const std::function<void(const Check&)>& tell);
+void runCases(const ConformCases& cases, const Tell& tell);
 
 }  // namespace ringlet::program

@@ -27,7 +27,7 @@
 namespace ringlet::program {
 namespace {
 
-constexpr const char* kHelp =
+constexpr const char* kConformHelp =
     "Examples:\n"
     "  ringlet conform\n"
     "  ringlet conform --quick --device 1\n"
@@ -60,13 +60,13 @@ constexpr const char* kHelp =
     "Exit status: 0 conforms, 1 does not conform or something failed, 2 wrong usage.";
 
 // The command line as typed.
-struct Typed {
+struct TypedConform {
   std::string device, breaks;
   std::filesystem::path json;
   bool quick = false;
 };
 
-Result<ComputeDevice> openDevice(const Typed& typed, std::uint64_t mostTexelRecords) {
+Result<ComputeDevice> openToConform(const TypedConform& typed, std::uint64_t mostTexelRecords) {
   gpu::DeviceOptions options;
   options.mostTexelRecords = mostTexelRecords;
   if (!typed.breaks.empty()) options.changeCode = breaking(typed.breaks);
@@ -86,7 +86,7 @@ std::string lineOf(const Check& check) {
   return line;
 }
 
-nlohmann::ordered_json asJson(const nlohmann::ordered_json& facts, const Typed& typed,
+nlohmann::ordered_json asJson(const nlohmann::ordered_json& facts, const TypedConform& typed,
                               const std::vector<Check>& checks, std::optional<bool> conforms) {
   nlohmann::ordered_json json{{"facts", facts}, {"quick", typed.quick}, {"checks", nlohmann::json::array()}};
   const auto orNull = [](const std::optional<double>& number) {
@@ -104,17 +104,12 @@ nlohmann::ordered_json asJson(const nlohmann::ordered_json& facts, const Typed& 
   return json;
 }
 
-int fail(const Error& error) {
-  say("ringlet conform: {}\n", error.message);
-  return exitCodeOf(error);
-}
-
 // A line as soon as it is there: some take a driver's compiler many seconds.
-int run(const Typed& typed) {
-  const auto device = openDevice(typed, 0);
-  if (!device) return fail(device.error());
-  const auto withoutTexels = openDevice(typed, 1);
-  if (!withoutTexels) return fail(withoutTexels.error());
+int run(const TypedConform& typed) {
+  const auto device = openToConform(typed, 0);
+  if (!device) return fail("conform", device.error());
+  const auto withoutTexels = openToConform(typed, 1);
+  if (!withoutTexels) return fail("conform", withoutTexels.error());
 
   const nlohmann::ordered_json facts = factsOf(*device);
   print("ringlet conform{}\n{}\n", typed.quick ? " --quick" : "", factsText(facts));
@@ -122,7 +117,7 @@ int run(const Typed& typed) {
   std::vector<Check> checks;
   const GrowingReport report(typed.json);
   Status written = report.grow(asJson(facts, typed, checks, {}));
-  if (!written) return fail(written.error());
+  if (!written) return fail("conform", written.error());
   const auto tell = [&](const Check& check) {
     print("{}\n", lineOf(check));
     std::fflush(stdout);
@@ -144,17 +139,17 @@ int run(const Typed& typed) {
   }
   print("\n{}\n", conforms ? "conforms" : "does not conform");
   written = report.finish(asJson(facts, typed, checks, conforms));
-  if (!written) return fail(written.error());
+  if (!written) return fail("conform", written.error());
   return conforms ? kExitFine : kExitFailed;
 }
 
 }  // namespace
 
 void addConformCommand(CLI::App& app, int& exitCode) {
-  auto typed = std::make_shared<Typed>();
+  auto typed = std::make_shared<TypedConform>();
   CLI::App* command =
       app.add_subcommand("conform", "Checks whether a device and its driver compute hair correctly");
-  command->footer(kHelp);
+  command->footer(kConformHelp);
   addDeviceOption(*command, typed->device);
   command->add_flag("--quick", typed->quick, "Leaves out what takes long; see below");
   command->add_option("--json", typed->json, "Writes the report to this file as one JSON object, too")

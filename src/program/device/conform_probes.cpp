@@ -135,12 +135,6 @@ class Difference {
   std::string first_;
 };
 
-Check failed(const std::string& name, const Error& error) {
-  return {.name = name, .outcome = Outcome::wrong, .detail = error.message};
-}
-
-using Tell = std::function<void(const Check&)>;
-
 // Which lane an invocation is, is the device's to choose; the values then follow.
 void probeShuffles(const ComputeDevice& device, const Tell& tell) {
   const std::string name = "shuffles at every lane";

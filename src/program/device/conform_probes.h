@@ -2,14 +2,12 @@
 // plain integer formulas, compared bit by bit.
 #pragma once
 
-#include <functional>
-
 #include "program/device/conform_check.h"
 #include "ringlet/solver/compute_device.h"
 
 namespace ringlet::program {
 
 /// Runs every probe and hands each line to `tell` when it is there.
-void runProbes(const ComputeDevice& device, const std::function<void(const Check&)>& tell);
+void runProbes(const ComputeDevice& device, const Tell& tell);
 
 }  // namespace ringlet::program

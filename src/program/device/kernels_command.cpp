@@ -28,7 +28,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kHelp =
+constexpr const char* kKernelsHelp =
     "Examples:\n"
     "  ringlet kernels\n"
     "  ringlet kernels --statistics --json kernels.json\n"
@@ -59,7 +59,7 @@ constexpr const char* kHelp =
     "Exit status: 0 all compiled, 1 one did not or something failed, 2 wrong usage.";
 
 // The command line as typed.
-struct Typed {
+struct TypedKernels {
   std::string device, only;
   std::vector<std::string> shapes;  // LANESxRUN
   std::filesystem::path json;
@@ -67,7 +67,7 @@ struct Typed {
   int one = -1;  // in a child: which kernel; statistics then say how
 };
 
-Result<ComputeDevice> openDevice(const Typed& typed) {
+Result<ComputeDevice> openToCompile(const TypedKernels& typed) {
   gpu::DeviceOptions options;
   options.allowNull = true;
   options.inspection = typed.statistics ? gpu::Inspection::statistics : gpu::Inspection::sizes;
@@ -102,13 +102,8 @@ Json asJson(const ListedKernel& kernel, const CompiledKernel& compiled) {
   return json;
 }
 
-int fail(const Error& error) {
-  say("ringlet kernels: {}\n", error.message);
-  return exitCodeOf(error);
-}
-
 // Of the device's shapes with runs in registers, those that are written as typed.
-Result<std::vector<StrandShape>> shapesOf(const Typed& typed, const DeviceLimits& limits) {
+Result<std::vector<StrandShape>> shapesOf(const TypedKernels& typed, const DeviceLimits& limits) {
   std::vector<StrandShape> shapes;
   const std::vector<ShapeCost> offered = shapeCosts(limits);
   for (const std::string& text : typed.shapes) {
@@ -126,7 +121,7 @@ Result<std::vector<StrandShape>> shapesOf(const Typed& typed, const DeviceLimits
 }
 
 // With statistics first; where the driver dies of them, without.
-CompiledKernel compileSafely(const Typed& typed, int device, std::size_t index) {
+CompiledKernel compileSafely(const TypedKernels& typed, int device, std::size_t index) {
   std::vector<std::string> arguments{"kernels", "--device", std::to_string(device), "--one",
                                      std::to_string(index)};
   if (!typed.shapes.empty()) {
@@ -143,14 +138,15 @@ CompiledKernel compileSafely(const Typed& typed, int device, std::size_t index) 
   return again;
 }
 
-int run(const Typed& typed) {
-  const auto device = openDevice(typed);
-  if (!device) return fail(device.error());
+int run(const TypedKernels& typed) {
+  const auto device = openToCompile(typed);
+  if (!device) return fail("kernels", device.error());
   const auto shapes = shapesOf(typed, device->limits());
-  if (!shapes) return fail(shapes.error());
+  if (!shapes) return fail("kernels", shapes.error());
   const std::vector<ListedKernel> kernels = listKernels(*device, *shapes);
   if (typed.one >= 0) {
-    if (typed.one >= static_cast<int>(kernels.size())) return fail({"there are fewer kernels than that"});
+    if (typed.one >= static_cast<int>(kernels.size()))
+      return fail("kernels", {"there are fewer kernels than that"});
     printCompiled(compileKernel(*device, kernels[static_cast<std::size_t>(typed.one)]));
     return kExitFine;
   }
@@ -162,7 +158,7 @@ int run(const Typed& typed) {
   print("  {:<56} {:>8} {:>8}\n", "kernel", "subgroup", "compiled");
   Json json{{"device", p.name}, {"driver", p.driver}, {"kernels", Json::array()}};
   const GrowingReport report(typed.json);
-  if (Status written = report.grow(json); !written) return fail(written.error());
+  if (Status written = report.grow(json); !written) return fail("kernels", written.error());
   int failures = 0;
   for (std::size_t k = 0; k < kernels.size(); ++k) {
     if (!hasPart(kernels[k].name, typed.only.c_str())) continue;
@@ -170,23 +166,23 @@ int run(const Typed& typed) {
     print("{}\n", lineOf(kernels[k], compiled));
     std::fflush(stdout);
     json["kernels"].push_back(asJson(kernels[k], compiled));
-    if (Status written = report.grow(json); !written) return fail(written.error());
+    if (Status written = report.grow(json); !written) return fail("kernels", written.error());
     failures += !compiled.isCompiled;
   }
-  if (Status written = report.finish(json); !written) return fail(written.error());
+  if (Status written = report.finish(json); !written) return fail("kernels", written.error());
   if (failures > 0)
-    return fail(
-        {fmt::format("{} of {} kernels did not compile", failures, json["kernels"].size()), Fault::compile});
+    return fail("kernels", {fmt::format("{} of {} kernels did not compile", failures, json["kernels"].size()),
+                            Fault::compile});
   return kExitFine;
 }
 
 }  // namespace
 
 void addKernelsCommand(CLI::App& app, int& exitCode) {
-  auto typed = std::make_shared<Typed>();
+  auto typed = std::make_shared<TypedKernels>();
   CLI::App* command =
       app.add_subcommand("kernels", "Compiles every kernel on a device, and says what the driver made of it");
-  command->footer(kHelp);
+  command->footer(kKernelsHelp);
   addDeviceOption(*command, typed->device);
   command->add_flag("--statistics", typed->statistics,
                     "Tell of registers, spills, scratch, code size, waves");

@@ -29,7 +29,7 @@
 namespace ringlet::program {
 namespace {
 
-constexpr const char* kHelp =
+constexpr const char* kTuneHelp =
     "Examples:\n"
     "  ringlet tune\n"
     "  ringlet tune groom.hair --seconds 60\n"
@@ -74,7 +74,7 @@ constexpr const char* kHelp =
     "remembered).";
 
 // The command line as typed.
-struct Typed {
+struct TypedTune {
   std::filesystem::path groom, report;
   std::vector<std::uint32_t> particles;
   std::vector<std::string> works;
@@ -137,7 +137,7 @@ std::string asText(const ComputeDevice& device, const TuneOutcome& outcome,
   return text;
 }
 
-Result<std::vector<std::uint32_t>> lengthsOf(const Typed& typed) {
+Result<std::vector<std::uint32_t>> lengthsOf(const TypedTune& typed) {
   if (typed.groom.empty()) {
     std::vector<std::uint32_t> lengths = typed.particles.empty() ? TuneOptions{}.lengths : typed.particles;
     std::ranges::sort(lengths);
@@ -155,7 +155,7 @@ Result<std::vector<std::uint32_t>> lengthsOf(const Typed& typed) {
 }
 
 // In the order of kTuneWorks, each once.
-std::vector<TuneWork> worksOf(const Typed& typed) {
+std::vector<TuneWork> worksOf(const TypedTune& typed) {
   std::vector<TuneWork> works;
   for (const TuneWork work : kTuneWorks) {
     if (std::ranges::find(typed.works, nameOf(work)) != typed.works.end()) works.push_back(work);
@@ -163,24 +163,19 @@ std::vector<TuneWork> worksOf(const Typed& typed) {
   return works.empty() ? TuneOptions{}.works : works;
 }
 
-int fail(const Error& error) {
-  say("ringlet tune: {}\n", error.message);
-  return exitCodeOf(error);
-}
-
-int run(Typed& typed) {
+int run(TypedTune& typed) {
   auto lengths = lengthsOf(typed);
-  if (!lengths) return fail(lengths.error());
+  if (!lengths) return fail("tune", lengths.error());
   typed.options.lengths = std::move(*lengths);
   typed.options.works = worksOf(typed);
   typed.options.showProgress = !typed.quiet;
   const auto device = openDevice(typed.device);
-  if (!device) return fail(device.error());
+  if (!device) return fail("tune", device.error());
   const GrowingReport report(typed.report);
   if (report.isThere())
     typed.options.grow = [&](const TuneOutcome& soFar) { return report.grow(asJson(*device, soFar, {})); };
   const auto outcome = timeShapes(*device, typed.options);
-  if (!outcome) return fail(outcome.error());
+  if (!outcome) return fail("tune", outcome.error());
 
   // The table is shown even where it cannot be remembered.
   Result<std::filesystem::path> file = std::filesystem::path{};
@@ -191,7 +186,8 @@ int run(Typed& typed) {
   if (outcome->leftOut > 0)
     say("ringlet tune: warning: no time for {} of the shapes; give it more with --seconds\n",
         outcome->leftOut);
-  if (Status told = report.finish(asJson(*device, *outcome, written)); !told) return fail(told.error());
+  if (Status told = report.finish(asJson(*device, *outcome, written)); !told)
+    return fail("tune", told.error());
   if (typed.json) {
     printJson(asJson(*device, *outcome, written));
   } else if (!typed.quiet && !outcome->interrupted) {
@@ -206,16 +202,16 @@ int run(Typed& typed) {
     if (written.empty()) say("ringlet tune: nothing was remembered\n");
     return exitCodeOf(outcome->troubles.front().error);
   }
-  return file ? kExitFine : fail(file.error());
+  return file ? kExitFine : fail("tune", file.error());
 }
 
 }  // namespace
 
 void addTuneCommand(CLI::App& app, int& exitCode) {
-  auto typed = std::make_shared<Typed>();
+  auto typed = std::make_shared<TypedTune>();
   CLI::App* command =
       app.add_subcommand("tune", "Measures which strand shapes are fastest on a device, and remembers it");
-  command->footer(kHelp);
+  command->footer(kTuneHelp);
   CLI::Option* groom =
       command
           ->add_option(

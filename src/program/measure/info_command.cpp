@@ -29,7 +29,7 @@ namespace {
 
 constexpr double kParticlesPerTurn = 4;  // with which a curl keeps its shape
 
-constexpr const char* kExample =
+constexpr const char* kInfoExample =
     "Examples:\n"
     "  ringlet info groom.usd                         how many strands, how long, how curled, what is wrong\n"
     "  ringlet info groom.obj --unit 1                the same, in metres\n"
@@ -76,7 +76,7 @@ constexpr const char* kExample =
     "be written, 1 other failures.";
 
 // The command line as typed.
-struct Typed {
+struct TypedInfo {
   std::filesystem::path input, output;
   std::optional<double> metresPerUnit;
   std::optional<std::string> up;
@@ -85,12 +85,12 @@ struct Typed {
   bool json = false;
 };
 
-struct Row {
+struct InfoRow {
   const char* key;
   const char* sentence;  // with a place for the count
   GroomFault GroomInspection::*fault;
 };
-constexpr Row kFaults[] = {
+constexpr InfoRow kFaults[] = {
     {"repeated_particles", "repeated particles: {}", &GroomInspection::repeatedParticles},
     {"short_edges", "edges below a thousandth of their strand's mean: {}", &GroomInspection::shortEdges},
     {"long_edges", "edges 6 times longer than their strand's median: {}", &GroomInspection::longEdges},
@@ -120,12 +120,12 @@ nlohmann::ordered_json jsonOf(const Middle& middle, double scale = 1) {
 }
 nlohmann::ordered_json jsonOf(Vec3d v) { return {v.x, v.y, v.z}; }
 
-const char* unitFrom(const Typed& typed, const LoadedGroom& loaded) {
+const char* unitFrom(const TypedInfo& typed, const LoadedGroom& loaded) {
   return typed.metresPerUnit ? "option" : loaded.statesUnit ? "file" : "default";
 }
 
-nlohmann::ordered_json infoJson(const Typed& typed, const LoadedGroom& loaded, const GroomInspection& found,
-                                const std::optional<Fixed>& fixed) {
+nlohmann::ordered_json infoJson(const TypedInfo& typed, const LoadedGroom& loaded,
+                                const GroomInspection& found, const std::optional<Fixed>& fixed) {
   const double unit = loaded.groom.metresPerUnit;
   nlohmann::ordered_json json;
   json["strands"] = found.strandCount;
@@ -151,7 +151,7 @@ nlohmann::ordered_json infoJson(const Typed& typed, const LoadedGroom& loaded, c
   json["up_from"] = loaded.statesUp ? nlohmann::json("file") : nlohmann::json(nullptr);
   json["likely_up"] =
       found.likelyUp ? nlohmann::json(std::string(1, found.likelyUp)) : nlohmann::json(nullptr);
-  for (const Row& row : kFaults) {
+  for (const InfoRow& row : kFaults) {
     const GroomFault& fault = found.*row.fault;
     json["faults"][row.key] = {
         {"count", fault.count},
@@ -175,7 +175,7 @@ nlohmann::ordered_json infoJson(const Typed& typed, const LoadedGroom& loaded, c
 
 std::string millimetres(double metres) { return fmt::format("{:.4g} mm", 1000 * metres); }
 
-std::string unitText(const Typed& typed, const LoadedGroom& loaded, const GroomInspection& found) {
+std::string unitText(const TypedInfo& typed, const LoadedGroom& loaded, const GroomInspection& found) {
   const std::string from = unitFrom(typed, loaded);
   std::string text = fmt::format("{} m, ", loaded.groom.metresPerUnit);
   text += from == "file"     ? "as the file states"
@@ -190,7 +190,7 @@ std::string unitText(const Typed& typed, const LoadedGroom& loaded, const GroomI
   return text;
 }
 
-void printInfo(const Typed& typed, const LoadedGroom& loaded, const GroomInspection& found) {
+void printInfo(const TypedInfo& typed, const LoadedGroom& loaded, const GroomInspection& found) {
   const double unit = loaded.groom.metresPerUnit;
   print("{}: {} strand{}, {} particles\n", typed.input.string(), found.strandCount,
         found.strandCount == 1 ? "" : "s", found.particleCount);
@@ -217,7 +217,7 @@ void printInfo(const Typed& typed, const LoadedGroom& loaded, const GroomInspect
       found.box.low.x, found.box.low.y, found.box.low.z, found.box.high.x, found.box.high.y, found.box.high.z,
       size.x, size.y, size.z);
   if (found.isFaultless()) print("  faults        none\n");
-  for (const Row& row : kFaults) {
+  for (const InfoRow& row : kFaults) {
     const GroomFault& fault = found.*row.fault;
     if (fault.count > 0) {
       print("  fault         {} (the first in strand {})\n",
@@ -226,7 +226,7 @@ void printInfo(const Typed& typed, const LoadedGroom& loaded, const GroomInspect
   }
 }
 
-Result<Fixed> fix(const Typed& typed, const LoadedGroom& loaded, const GroomInspection& found) {
+Result<Fixed> fix(const TypedInfo& typed, const LoadedGroom& loaded, const GroomInspection& found) {
   Fixed fixed{mendGroom(loaded.groom, static_cast<std::size_t>(typed.particles.value_or(0))), {}};
   if (fixed.mended.groom.strandCount() == 0) {
     return Error{fmt::format("{}: all its strands are in one place, so that nothing is left to write",
@@ -244,7 +244,7 @@ Result<Fixed> fix(const Typed& typed, const LoadedGroom& loaded, const GroomInsp
   return fixed;
 }
 
-void printFixed(const Typed& typed, const Fixed& fixed) {
+void printFixed(const TypedInfo& typed, const Fixed& fixed) {
   const MendedGroom& mended = fixed.mended;
   print(
       "\n{}: {} strands, {} particles, in units of {} m; {} particles merged and {} strays taken out, {} "
@@ -254,22 +254,17 @@ void printFixed(const Typed& typed, const Fixed& fixed) {
       mended.duplicateCount);
 }
 
-int fail(const Error& error) {
-  say("ringlet info: {}\n", error.message);
-  return exitCodeOf(error);
-}
-
-int run(const Typed& typed) {
+int run(const TypedInfo& typed) {
   if (typed.particles && typed.output.empty())
     throw CLI::ValidationError("--particles", "only --fix writes strands; name its file");
   auto loaded = readGroom(typed.input, readingOf(typed.groom, typed.up == "Z"));
-  if (!loaded) return fail(loaded.error());
+  if (!loaded) return fail("info", loaded.error());
   if (typed.metresPerUnit) loaded->groom.metresPerUnit = *typed.metresPerUnit;
   const GroomInspection found = inspectGroom(loaded->groom);
   std::optional<Fixed> fixed;
   if (!typed.output.empty()) {
     auto done = fix(typed, *loaded, found);
-    if (!done) return fail(done.error());
+    if (!done) return fail("info", done.error());
     fixed = std::move(*done);
   }
   if (typed.json) {
@@ -287,9 +282,9 @@ int run(const Typed& typed) {
 }  // namespace
 
 void addInfoCommand(CLI::App& app, int& exitCode) {
-  auto typed = std::make_shared<Typed>();
+  auto typed = std::make_shared<TypedInfo>();
   CLI::App* command = app.add_subcommand("info", "Says what is in a groom's file, and mends it");
-  command->footer(kExample);
+  command->footer(kInfoExample);
   command
       ->add_option("FILE", typed->input,
                    "A groom: .hair, .obj, .usda, .usdc, .usd, .usdz, .tfx, .ply, .data or .bin")

@@ -19,7 +19,7 @@
 namespace ringlet::program {
 namespace {
 
-constexpr const char* kExample =
+constexpr const char* kMeasureExample =
     "Examples:\n"
     "  ringlet measure groom.obj                     the curls of a groom\n"
     "  ringlet measure groom.obj settled.obj         what is left of them in another pose\n"
@@ -72,17 +72,14 @@ constexpr const char* kExample =
     "Exit status: 0 done, 1 something failed, 2 wrong usage.";
 
 // The command line as typed.
-struct Typed {
+struct TypedMeasure {
   MeasurePlan plan;
   bool json = false, strands = false;
 };
 
-int run(const Typed& typed) {
+int run(const TypedMeasure& typed) {
   auto measured = runMeasure(typed.plan);
-  if (!measured) {
-    say("ringlet measure: {}\n", measured.error().message);
-    return exitCodeOf(measured.error());
-  }
+  if (!measured) return fail("measure", measured.error());
   if (typed.json) {
     printJson(measuredJson(*measured, typed.strands));
   } else {
@@ -94,9 +91,9 @@ int run(const Typed& typed) {
 }  // namespace
 
 void addMeasureCommand(CLI::App& app, int& exitCode) {
-  auto typed = std::make_shared<Typed>();
+  auto typed = std::make_shared<TypedMeasure>();
   CLI::App* command = app.add_subcommand("measure", "Measures the curl of a groom, and what became of it");
-  command->footer(kExample);
+  command->footer(kMeasureExample);
   command
       ->add_option("REST", typed->plan.rest,
                    "The groom at rest: a .hair, .obj, .usd, .tfx, .ply, .data or .bin file")

@@ -14,7 +14,7 @@
 namespace ringlet::program {
 namespace {
 
-constexpr int kWidth = 900, kPanelHeight = 190;  // [pixels]
+constexpr int kPlotWidth = 900, kPanelHeight = 190;  // [pixels]
 
 // As gnuplot reads it between single quotes: whatever is in it stands for itself.
 std::string quoted(const std::string& text) {
@@ -70,7 +70,7 @@ std::string scriptOf(const std::filesystem::path& path, const std::string& exten
       "set terminal {} noenhanced font ',10' size {},{} background rgb 'white'\nset output {}\n"
       "set multiplot layout {},1\nset lmargin 12\nset rmargin 3\nset grid\n"
       "set key outside above horizontal\n",
-      terminal, kWidth, kPanelHeight * panels.size(), quoted(path.string()), panels.size());
+      terminal, kPlotWidth, kPanelHeight * panels.size(), quoted(path.string()), panels.size());
   for (std::size_t r = 0; r < runs.size(); ++r) script += dataOf(runs[r], r);
   for (const std::size_t panel : panels) {
     const SeriesKind& kind = seriesKinds()[panel];

@@ -15,7 +15,7 @@ nlohmann::json orNull(std::optional<double> value) {
 }
 
 // A line of the table and of the JSON's spread: one value of every strand, in the unit shown.
-struct Row {
+struct ReportRow {
   const char* label;
   const char* key;
   double StrandMeasure::*member;
@@ -23,7 +23,7 @@ struct Row {
   int digits;
   bool onlyInPoses;  // says nothing about a groom alone
 };
-constexpr Row kRows[] = {
+constexpr ReportRow kRows[] = {
     {"droop [mm]", "droop_mm", &StrandMeasure::droop, 1000, 3, true},
     {"  of length [%]", "relative_droop", &StrandMeasure::relativeDroop, 100, 3, true},
     {"core elongation", "core_elongation", &StrandMeasure::coreElongation, 1, 4, true},
@@ -134,7 +134,7 @@ nlohmann::ordered_json measuredJson(const Measured& measured, bool withStrands) 
   json["frames"] = measured.numbers.frameCount;
   addCurlKeys(json, measured.numbers);
   for (const char* key : {"limited_share", "velocity_residual"}) json[key] = nullptr;  // of a run's steps
-  for (const Row& row : kRows) {
+  for (const ReportRow& row : kRows) {
     const Spread spread = spreadOf(valuesOf(measured.strands, row, jsonScale(row)));
     json["spread"][row.key] = {spread.mean, spread.min, spread.max};
   }
@@ -153,7 +153,7 @@ nlohmann::ordered_json measuredJson(const Measured& measured, bool withStrands) 
     const StrandMeasure& strand = measured.strands[s];
     nlohmann::ordered_json entry;
     entry["particles"] = measured.ruler.strand(s).particleCount();
-    for (const Row& row : kRows) entry[row.key] = strand.*row.member * jsonScale(row);
+    for (const ReportRow& row : kRows) entry[row.key] = strand.*row.member * jsonScale(row);
     entry["turns_at_rest"] = measured.ruler.strand(s).rest().turns;
     entry["handedness"] = strand.handedness;
     entry["handedness_kept"] = strand.handednessKept >= kHandKeptShare;
@@ -193,7 +193,7 @@ std::string measuredText(const Measured& measured) {
     text += fmt::format("  {:<20}{:>12}{:>12}{:>12}{}\n", label, shown(spread.mean, digits),
                         shown(spread.min, digits), shown(spread.max, digits), note);
   };
-  for (const Row& row : kRows) {
+  for (const ReportRow& row : kRows) {
     if (row.onlyInPoses && !measured.isPose) continue;
     const Spread spread = spreadOf(valuesOf(measured.strands, row, row.scale));
     line(row.label, spread, row.digits, row.member == &StrandMeasure::droop ? riseNote(spread.min) : "");
@@ -253,7 +253,7 @@ std::string strandsText(const Measured& measured) {
   text += "\n";
   for (std::size_t s = 0; s < measured.strands.size(); ++s) {
     text += fmt::format("{:>7}{:>10}", s, measured.ruler.strand(s).particleCount());
-    for (const Row& row : kRows) {
+    for (const ReportRow& row : kRows) {
       if (!row.onlyInPoses || measured.isPose)
         text += fmt::format("{:>10}", shown(measured.strands[s].*row.member * row.scale, row.digits));
     }

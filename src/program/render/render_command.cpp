@@ -32,7 +32,7 @@
 namespace ringlet::program {
 namespace {
 
-constexpr const char* kExample =
+constexpr const char* kRenderExample =
     "Examples:\n"
     "  ringlet render out -o pictures                    the run in out/, as pictures/frame.0001.png and so "
     "on\n"
@@ -69,7 +69,7 @@ constexpr const char* kExample =
     "stay.";
 
 // The animation in a run's folder, the one that is read fastest first.
-Result<std::filesystem::path> animationIn(const std::filesystem::path& input) {
+Result<std::filesystem::path> animationOf(const std::filesystem::path& input) {
   std::error_code code;
   if (!std::filesystem::is_directory(input, code)) return input;
   for (const char* suffix : {"", ".partial"})
@@ -147,10 +147,10 @@ Result<RenderOutcome> runGroom(const RenderOptions& typed, const ComputeDevice& 
 }
 
 Result<RenderOutcome> runAnimation(const RenderOptions& typed, const ComputeDevice& device, RenderPlan plan) {
-  const auto animation = animationIn(typed.input);
+  const auto animation = animationOf(typed.input);
   if (!animation) return animation.error();
   if (plan.colours && !typed.against.empty()) {
-    const auto against = animationIn(typed.against);
+    const auto against = animationOf(typed.against);
     if (!against) return against.error();
     plan.colours->against = *against;
   }
@@ -218,25 +218,22 @@ void printOutcome(const RenderOptions& typed, const RenderPlan& plan, const Rend
 }
 
 int run(const RenderOptions& typed) {
-  const auto fail = [](const Error& error) {
-    say("ringlet render: {}\n", error.message);
-    return exitCodeOf(error);
-  };
   std::error_code code;
   if (!std::filesystem::exists(typed.input, code))
-    return fail({fmt::format("{}: there is no such file or folder", typed.input.string()), Fault::input});
+    return fail("render",
+                {fmt::format("{}: there is no such file or folder", typed.input.string()), Fault::input});
   checkRenderOptions(typed);
   catchInterruption();
   if (isFilm(typed.output)) {
-    if (Status can = checkFilms(); !can) return fail(can.error());
+    if (Status can = checkFilms(); !can) return fail("render", can.error());
   }
   const auto device = openDevice(typed.device);
-  if (!device) return fail(device.error());
+  if (!device) return fail("render", device.error());
   const RenderPlan plan = renderPlanOf(typed);
   const auto outcome = isSceneFile(typed.input)       ? runScene(typed, *device, plan)
                        : isGroomToRender(typed.input) ? runGroom(typed, *device, plan)
                                                       : runAnimation(typed, *device, plan);
-  if (!outcome) return fail(outcome.error());
+  if (!outcome) return fail("render", outcome.error());
   for (const std::string& warning : outcome->warnings) say("ringlet render: warning: {}\n", warning);
   for (const std::string& message : device->validationMessages())
     say("ringlet render: warning: {}\n", message);
@@ -250,7 +247,7 @@ void addRenderCommand(CLI::App& app, int& exitCode) {
   auto options = std::make_shared<RenderOptions>();
   CLI::App* command =
       app.add_subcommand("render", "Draws pictures of a run, an animation, a scene or a groom");
-  command->footer(kExample);
+  command->footer(kRenderExample);
   addRenderOptions(*command, *options);
   command->callback([options, &exitCode] { exitCode = run(*options); });
 }

@@ -35,7 +35,7 @@
 namespace ringlet::program {
 namespace {
 
-constexpr const char* kExample =
+constexpr const char* kSceneExample =
     "Examples:\n"
     "  ringlet scene --list\n"
     "  ringlet scene hanging_curl --preload 0 --particles 128\n"
@@ -64,7 +64,7 @@ constexpr const char* kExample =
     "step, for which the scene runs twice; null elsewhere). With --list: scenes, of each name summary "
     "seconds preload.\nWith --keys: keys, of each table key type unit range default only_with effect. With "
     "--write: scene outputs.\n";
-constexpr const char* kExitHelp =
+constexpr const char* kSceneExitHelp =
     "\n"
     "Scenes of hair that meets hair (two_curls, curtain, pile, fall, flip, head, walk_head) measure contacts "
     "also where these are\n"
@@ -75,7 +75,7 @@ constexpr const char* kExitHelp =
     "Exit status: as for simulate.";
 
 // The command line as typed.
-struct Typed {
+struct TypedScene {
   std::string name;
   SceneOptions scene;
   DialChoice dials;
@@ -170,7 +170,7 @@ void printKeys(bool asJson) {
   if (asJson) printJson({{"keys", keys}});
 }
 
-Error inScene(const Typed& typed, const Error& cause) {
+Error inScene(const TypedScene& typed, const Error& cause) {
   return Error{fmt::format("{}: {}", typed.name, cause.message), cause.fault};
 }
 
@@ -205,7 +205,7 @@ Result<std::optional<double>> measureFrameTurn(const BuiltinScene& scene, Simula
   return outcome->interrupted ? std::nullopt : std::optional(turn.largest());
 }
 
-nlohmann::ordered_json asJson(const Typed& typed, const BuiltinScene& scene, const RunOutcome& outcome,
+nlohmann::ordered_json asJson(const TypedScene& typed, const BuiltinScene& scene, const RunOutcome& outcome,
                               const SceneNumbers& numbers) {
   nlohmann::ordered_json json{{"scene", scene.name},
                               {"seconds", outcome.frameCount / scene.settings.framesPerSecond},
@@ -224,7 +224,7 @@ nlohmann::ordered_json asJson(const Typed& typed, const BuiltinScene& scene, con
 }
 
 // The scene as a file, its groom beside it.
-Result<int> writeScene(const Typed& typed, const BuiltinScene& scene) {
+Result<int> writeScene(const TypedScene& typed, const BuiltinScene& scene) {
   const std::filesystem::path folder = typed.file.parent_path(),
                               groom = folder / (typed.file.stem().string() + "-groom.obj");
   const std::string heading = fmt::format(
@@ -244,7 +244,7 @@ Result<int> writeScene(const Typed& typed, const BuiltinScene& scene) {
   return kExitFine;
 }
 
-Result<int> runScene(Typed& typed) {
+Result<int> runScene(TypedScene& typed) {
   auto scene = makeScene(typed.name, typed.scene);
   if (!scene) return scene.error();
   applyContactOptions(typed.contacts, scene->settings.contacts);
@@ -287,7 +287,7 @@ Result<int> runScene(Typed& typed) {
   return exitCode;
 }
 
-int run(Typed& typed) {
+int run(TypedScene& typed) {
   if (typed.list || typed.keys) {
     typed.list ? printList(typed.json) : printKeys(typed.json);
     return kExitFine;
@@ -311,7 +311,7 @@ void checkList(const CLI::App& command, bool list) {
 }
 
 // The same for --integrator paper, whose springs, frames and loads are as printed.
-void checkPaper(const Typed& typed) {
+void checkPaper(const TypedScene& typed) {
   const char* option = typed.scene.bendStiffness             ? "--bend-stiffness"
                        : !typed.scene.core                   ? "--core"
                        : !typed.scene.smoothedFrames         ? "--frames-on"
@@ -326,7 +326,7 @@ void checkPaper(const Typed& typed) {
 }
 
 // What one option means for another. Throws CLI11's error for what makes no sense together.
-void resolve(Typed& typed) {
+void resolve(TypedScene& typed) {
   if (typed.name.empty()) throw CLI::RequiredError("NAME (or --list)");
   typed.scene.core = typed.core == "on";
   typed.scene.smoothedFrames = typed.framesOn == "smoothed";
@@ -356,10 +356,10 @@ void resolve(Typed& typed) {
 }  // namespace
 
 void addSceneCommand(CLI::App& app, int& exitCode) {
-  auto typed = std::make_shared<Typed>();
+  auto typed = std::make_shared<TypedScene>();
   CLI::App* command =
       app.add_subcommand("scene", "Runs a built-in scene and measures what becomes of its hair");
-  command->footer(std::string(kExample) + kContactKeysHelp + kExitHelp);
+  command->footer(std::string(kSceneExample) + kContactKeysHelp + kSceneExitHelp);
   command->add_option("NAME", typed->name, "The scene; see --list")
       ->check(oneOf(sceneNames()))
       ->type_name("NAME");

@@ -40,7 +40,7 @@ namespace ringlet::program {
 namespace {
 
 constexpr int kMostFrames = 1'000'000;  // eleven hours at 24 a second; more is a slip of the finger
-constexpr const char* kExample =
+constexpr const char* kSimulateExample =
     "Examples:\n"
     "  ringlet make head -o head.obj && ringlet simulate head.obj --motion shake --frames 48 -o out\n"
     "  ringlet simulate head.obj --contacts on --measure-contacts --prune 12 --json -o out\n"
@@ -84,7 +84,7 @@ constexpr const char* kExample =
     "resumed_from (frames that a run before had done) interrupted warnings notes (a preset that fits "
     "better)\n"
     "outputs. Times are of this run's frames.\n";
-constexpr const char* kExitHelp =
+constexpr const char* kSimulateExitHelp =
     "\n"
     "Exit status: 0 done, 2 wrong usage, 3 done but some particles have no position, 130 Ctrl-C; of "
     "failures\n"
@@ -93,7 +93,7 @@ constexpr const char* kExitHelp =
     "others.";
 
 // The command line as typed; what is left out is the scene file's, or the default.
-struct Typed {
+struct TypedSimulate {
   std::filesystem::path input, folder;
   std::optional<int> frames, bindFrame, stepsPerFrame, iterations, roots, skipFrames, lanes, run, subgroup;
   std::optional<double> preRoll, framesPerSecond, unit, motionUnit, amplitude, frequency, gravity, preload;
@@ -116,7 +116,7 @@ void replace(Value& value, const auto& typed) {
 }
 
 // A groom by itself is a scene as well: one whose head shakes.
-Result<SceneFile> readInput(const Typed& typed) {
+Result<SceneFile> readInput(const TypedSimulate& typed) {
   if (isSceneFile(typed.input)) return readScene(typed.input, {}, typed.reach);
   SceneFile scene;
   scene.groom.file = typed.input;
@@ -137,7 +137,7 @@ std::string wrongMotion(std::string word) {
 }
 
 // The motion as typed in place of the file's. Throws CLI11's error for what makes no sense together.
-void applyMotionOptions(const Typed& typed, SceneMotion& motion) {
+void applyMotionOptions(const TypedSimulate& typed, SceneMotion& motion) {
   if (typed.motion) {
     SceneMotion other{.preRollSeconds = motion.preRollSeconds, .roots = motion.roots};
     if (motionFileKind(*typed.motion) != MotionFileKind::none) {
@@ -176,7 +176,7 @@ void applyMotionOptions(const Typed& typed, SceneMotion& motion) {
 }
 
 // What was typed in place of what the file says.
-void applyOptions(const Typed& typed, SceneFile& scene) {
+void applyOptions(const TypedSimulate& typed, SceneFile& scene) {
   replace(scene.groom.metresPerUnit, typed.unit);
   replace(scene.groom.up, typed.up);
   applyGroomOptions(typed.groom, scene.groom);
@@ -201,7 +201,7 @@ void applyOptions(const Typed& typed, SceneFile& scene) {
 }
 
 // Throws CLI11's error for what makes no sense together.
-void checkOptions(const Typed& typed, const SceneFile& scene) {
+void checkOptions(const TypedSimulate& typed, const SceneFile& scene) {
   if (scene.output.folder.empty()) throw CLI::RequiredError("--output");
   if (scene.simulation.integrator != "point_jacobi" && (typed.iterations || typed.noChebyshev)) {
     throw CLI::ValidationError(typed.noChebyshev ? "--no-chebyshev" : "--iterations",
@@ -232,7 +232,7 @@ void checkOptions(const Typed& typed, const SceneFile& scene) {
 }
 
 // How the scene is run.
-SimulateOptions optionsOf(const Typed& typed, const SceneFile& scene) {
+SimulateOptions optionsOf(const TypedSimulate& typed, const SceneFile& scene) {
   SimulateOptions options(runOptionsOf(scene));
   options.measuresContacts = typed.measuresContacts;
   options.onReference = typed.backend == "reference";
@@ -257,39 +257,36 @@ SimulateOptions optionsOf(const Typed& typed, const SceneFile& scene) {
   return options;
 }
 
-int fail(const Error& error) {
-  say("ringlet simulate: {}\n", error.message);
-  return exitCodeOf(error);
-}
-
-int run(const Typed& typed) {
+int run(const TypedSimulate& typed) {
   if (typed.folder.empty() && !isSceneFile(typed.input)) throw CLI::RequiredError("--output");
   auto scene = readInput(typed);
-  if (!scene) return fail(scene.error());
+  if (!scene) return fail("simulate", scene.error());
   applyOptions(typed, *scene);
   checkOptions(typed, *scene);
-  if (Status applied = applyMaterialOptions(typed.material, *scene); !applied) return fail(applied.error());
+  if (Status applied = applyMaterialOptions(typed.material, *scene); !applied)
+    return fail("simulate", applied.error());
   SimulateOptions options = optionsOf(typed, *scene);
   if (typed.reach == SceneReach::ownFolder && typed.folder.empty()) {
-    if (Status linkless = checkHoldsNoLinks(options.folder); !linkless) return fail(linkless.error());
+    if (Status linkless = checkHoldsNoLinks(options.folder); !linkless)
+      return fail("simulate", linkless.error());
   }
   const bool rendersSheet = typed.outputs.sheet == "rendered" && options.writesSheet;
   if (rendersSheet) {
-    if (Status can = checkRenderedSheet(options); !can) return fail(can.error());
+    if (Status can = checkRenderedSheet(options); !can) return fail("simulate", can.error());
   }
   if (outputsOf(options).empty() && !typed.json && !typed.jsonProgress)
     say("ringlet simulate: warning: every file is left out, so that nothing will be written into {}\n",
         options.folder.string());
   std::optional<LoadedGroom> origin;
   if (Status prepared = prepareRun(*scene, typed.input, origin, options); !prepared)
-    return fail(prepared.error());
+    return fail("simulate", prepared.error());
   const auto loaded = loadScene(*scene, origin ? &*origin : nullptr);
-  if (!loaded) return fail(loaded.error());
+  if (!loaded) return fail("simulate", loaded.error());
   if (const auto exitCode = joinRun(*loaded, options)) return *exitCode;
   const auto outcome = simulate(*loaded, options);
-  if (!outcome) return fail(outcome.error());
+  if (!outcome) return fail("simulate", outcome.error());
   if (rendersSheet && outcome->frameCount > 0 && !outcome->canResume) {
-    if (Status drawn = writeRenderedSheet(*loaded, options); !drawn) return fail(drawn.error());
+    if (Status drawn = writeRenderedSheet(*loaded, options); !drawn) return fail("simulate", drawn.error());
   }
   const int exitCode = tellTroubles("simulate", *outcome, loaded->frameCount);
   RunNames names{scene->simulation.integrator, typed.backend};
@@ -306,9 +303,9 @@ int run(const Typed& typed) {
 }  // namespace
 
 void addSimulateCommand(CLI::App& app, int& exitCode) {
-  auto typed = std::make_shared<Typed>();
+  auto typed = std::make_shared<TypedSimulate>();
   CLI::App* command = app.add_subcommand("simulate", "Moves the hair of a groom and writes the animation");
-  command->footer(std::string(kExample) + kContactKeysHelp + kExitHelp);
+  command->footer(std::string(kSimulateExample) + kContactKeysHelp + kSimulateExitHelp);
 
   command
       ->add_option(

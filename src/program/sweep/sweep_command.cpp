@@ -64,7 +64,7 @@ constexpr const char* kFooter =
     "Exit status: 0 all runs are done; of runs that failed that of the first, as for simulate; 130 Ctrl-C.";
 
 // The command line as typed.
-struct Typed {
+struct TypedSweep {
   std::filesystem::path scene;
   std::vector<std::string> vary;
   std::string only, backend = "gpu";
@@ -72,11 +72,6 @@ struct Typed {
   SweepOptions options;
   bool noSheet = false, untuned = false, list = false, json = false, quiet = false;
 };
-
-int fail(const Error& error) {
-  say("ringlet sweep: {}\n", error.message);
-  return exitCodeOf(error);
-}
 
 // "2/4": the second of four parts. Throws CLI11's error for anything else.
 void readPart(const std::string& typed, SweepOptions& options) {
@@ -135,7 +130,7 @@ void warnOfDevices(std::span<const SweepEntry> entries) {
         devices.size());
 }
 
-int run(Typed& typed) {
+int run(TypedSweep& typed) {
   const std::vector<SweepAxis> axes = readAxes(typed.vary);
   SweepOptions& options = typed.options;
   if (!typed.only.empty()) readPart(typed.only, options);
@@ -147,20 +142,22 @@ int run(Typed& typed) {
   options.showProgress = !typed.quiet;
 
   const auto runs = planRuns(typed.scene, axes, typed.reach);
-  if (!runs) return fail(runs.error());
+  if (!runs) return fail("sweep", runs.error());
   if (!options.lastOnly)
     for (const SweepRun& run : *runs) checkOutputs(run.scene.output);
   auto entries = lookAtRuns(*runs, options);
-  if (!entries) return fail(entries.error());
+  if (!entries) return fail("sweep", entries.error());
   if (!typed.list) {
     std::error_code code;
     std::filesystem::create_directories(options.folder, code);
     if (code)
-      return fail({fmt::format("cannot create the folder {}: {}", options.folder.string(), code.message()),
+      return fail("sweep",
+                  {fmt::format("cannot create the folder {}: {}", options.folder.string(), code.message()),
                    Fault::output});
-    if (Status ran = runSweep(*entries, axes, options); !ran) return fail(ran.error());
+    if (Status ran = runSweep(*entries, axes, options); !ran) return fail("sweep", ran.error());
     warnOfDevices(*entries);
-    if (Status written = writeResults(*entries, axes, options); !written) return fail(written.error());
+    if (Status written = writeResults(*entries, axes, options); !written)
+      return fail("sweep", written.error());
   }
   if (typed.json) {
     printJson(sweepJson(*entries, axes, options));
@@ -175,7 +172,7 @@ int run(Typed& typed) {
 }  // namespace
 
 void addSweepCommand(CLI::App& app, int& exitCode) {
-  auto typed = std::make_shared<Typed>();
+  auto typed = std::make_shared<TypedSweep>();
   SweepOptions& options = typed->options;
   CLI::App* command =
       app.add_subcommand("sweep", "Runs a scene for many values of its keys, and compares them");

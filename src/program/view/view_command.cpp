@@ -35,7 +35,7 @@
 namespace ringlet::program {
 namespace {
 
-constexpr const char* kExample =
+constexpr const char* kViewExample =
     "Examples:\n"
     "  ringlet view head.obj                              hair that hangs on a head\n"
     "  ringlet view scene.toml --hairs 3000               hairs that follow the scene's strands\n"
@@ -62,7 +62,7 @@ constexpr const char* kExample =
     "cannot be\n"
     "read, 130 interrupted.";
 
-struct Typed {
+struct TypedView {
   std::filesystem::path input, save, pictures, widgets;
   std::vector<std::string> changes;
   SceneReach reach = SceneReach::anywhere;
@@ -76,7 +76,7 @@ struct Typed {
 };
 
 // A scene, or a groom as one.
-Result<SceneFile> sceneOf(const Typed& typed) {
+Result<SceneFile> sceneOf(const TypedView& typed) {
   std::vector<SceneChange> changes;
   if (typed.metresPerUnit) changes.push_back({"groom.unit", fmt::format("{}", *typed.metresPerUnit)});
   if (typed.up) changes.push_back({"groom.up", *typed.up});
@@ -143,7 +143,7 @@ Status addHairs(const LoadedScene& scene, int hairs, const HairLook& look, view:
   return {};
 }
 
-Result<view::ViewOutcome> runScene(const Typed& typed, const SceneFile& file, LoadedScene& scene) {
+Result<view::ViewOutcome> runScene(const TypedView& typed, const SceneFile& file, LoadedScene& scene) {
   view::ViewPlan plan;
   plan.file = &file;
   plan.scene = &scene;
@@ -171,7 +171,7 @@ Result<view::ViewOutcome> runScene(const Typed& typed, const SceneFile& file, Lo
   return view::runView(plan);
 }
 
-void printOutcome(const Typed& typed, const LoadedScene& scene, const view::ViewOutcome& outcome) {
+void printOutcome(const TypedView& typed, const LoadedScene& scene, const view::ViewOutcome& outcome) {
   if (!typed.json) return;
   const double frames = std::max(1.0, static_cast<double>(outcome.frameCount) - 1);
   nlohmann::ordered_json json{{"frames", outcome.frameCount},
@@ -195,20 +195,16 @@ void printOutcome(const Typed& typed, const LoadedScene& scene, const view::View
   printJson(json);
 }
 
-int run(Typed typed) {
+int run(TypedView typed) {
   catchInterruption();
-  const auto fail = [](const Error& error) {
-    say("ringlet view: {}\n", error.message);
-    return exitCodeOf(error);
-  };
   const auto file = sceneOf(typed);
-  if (!file) return fail(file.error());
+  if (!file) return fail("view", file.error());
   auto scene = loadScene(*file);
-  if (!scene) return fail(scene.error());
+  if (!scene) return fail("view", scene.error());
   for (const std::string& warning : scene->warnings) say("ringlet view: warning: {}\n", warning);
   if (typed.save.empty()) typed.save = typed.input.stem().string() + ".view.toml";
   const auto outcome = runScene(typed, *file, *scene);
-  if (!outcome) return fail(outcome.error());
+  if (!outcome) return fail("view", outcome.error());
   for (const std::string& warning : outcome->warnings) say("ringlet view: warning: {}\n", warning);
   for (const std::string& message : outcome->validationMessages) say("ringlet view: warning: {}\n", message);
   printOutcome(typed, *scene, *outcome);
@@ -217,12 +213,9 @@ int run(Typed typed) {
 
 #else
 
-int run(const Typed& typed) {
+int run(const TypedView& typed) {
   // What it would be given is looked at all the same.
-  if (const auto file = sceneOf(typed); !file) {
-    say("ringlet view: {}\n", file.error().message);
-    return exitCodeOf(file.error());
-  }
+  if (const auto file = sceneOf(typed); !file) return fail("view", file.error());
   const std::string missing = RINGLET_VIEW_MISSING;
   say("ringlet view: this program was built without a window: {}; `ringlet render` makes pictures without "
       "one\n",
@@ -246,10 +239,10 @@ CLI::Validator isChange() {
 }  // namespace
 
 void addViewCommand(CLI::App& app, int& exitCode) {
-  auto typed = std::make_shared<Typed>();
+  auto typed = std::make_shared<TypedView>();
   CLI::App* command =
       app.add_subcommand("view", "Opens a window in which hair moves while its numbers change");
-  command->footer(kExample);
+  command->footer(kViewExample);
   command->add_option("IN", typed->input, "A scene (.toml) or a groom")->required()->type_name("PATH");
   command
       ->add_option("--set", typed->changes,

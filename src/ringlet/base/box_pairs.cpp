@@ -15,8 +15,6 @@ constexpr double kCellMargin = 1 + 1e-6;
 // Cells along an axis, at most: their numbers fit into 32 bits, and rounding stays below the margin.
 constexpr double kMostCells = 0x1p30;
 
-bool isFinite(Vec3d v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
 double largest(Vec3d v) { return std::max({v.x, v.y, v.z}); }
 
 }  // namespace

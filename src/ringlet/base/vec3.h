@@ -37,6 +37,10 @@ Vec3<T> cross(Vec3<T> a, Vec3<T> b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 template <class T>
+bool isFinite(Vec3<T> v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+template <class T>
 T length(Vec3<T> v) {
   return std::sqrt(dot(v, v));
 }

@@ -10,9 +10,9 @@ namespace ringlet {
 
 namespace {
 
-constexpr double kClearShare = 0.8, kNear = 0.2;
+constexpr double kClearShare = 0.8, kNearShare = 0.2;
 
-bool isAwayFrom(double value, double bound) { return std::abs(value - bound) > kNear * bound; }
+bool isAwayFrom(double value, double bound) { return std::abs(value - bound) > kNearShare * bound; }
 
 }  // namespace
 

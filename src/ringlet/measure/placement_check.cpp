@@ -19,7 +19,7 @@ namespace {
 constexpr double kSmallBody = 0.05, kLargeBody = 20;  // as shares of the groom's size
 constexpr double kDeepRoots = 0.25;                   // of the body's size
 constexpr double kOnShare = 0.2,
-                 kClearShare = 0.1;    // of a strand's length: an end on a body; one that is further
+                 kNearEndShare = 0.1;  // of a strand's length: an end on a body; one that is further
 constexpr double kLeastClear = 0.005;  // at least [m]
 
 // The groom as it stands in the world.
@@ -103,7 +103,7 @@ std::string turnsRound(const RootEnds& byHead, std::size_t count) {
 std::optional<std::string> doubtOfRootEnds(const Groom& groom, const RootEnds& byHead,
                                            std::span<const EndDistances> ends, const std::string& what) {
   const double on = std::max(kLeastClear, kOnShare * meanLength(groom));
-  const double clear = std::max(kLeastClear, kClearShare * meanLength(groom));
+  const double clear = std::max(kLeastClear, kNearEndShare * meanLength(groom));
   if (std::ranges::count(reversedBy(ends, on, clear), true) == 0) return std::nullopt;
   const std::vector<bool> isReversed = reversedBy(ends, on, kLeastClear);
   const auto count = static_cast<std::size_t>(std::ranges::count(isReversed, true));

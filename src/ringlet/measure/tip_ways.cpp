@@ -10,8 +10,6 @@
 namespace ringlet {
 namespace {
 
-bool isFinite(Vec3d v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
 // The tip of strand s from its root [m], along world axes.
 Vec3d tipFromRoot(const Groom& rest, std::span<const Vec3f> points, std::size_t s) {
   const Vec3d root(points[rest.firstPoint[s]]), tip(points[rest.firstPoint[s + 1] - 1]);

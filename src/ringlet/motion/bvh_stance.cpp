@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMostLooks = 200;              // at frames
 constexpr double kOften = 0.2, kMostly = 0.5;        // shares of the looks
-constexpr double kUpright = 0.8;                     // cosine of a standing trunk's angle to the up axis
+constexpr double kUprightTrunk = 0.8;                // cosine of a standing trunk's angle to the up axis
 constexpr double kShortest = 0.85, kTallest = 1.15;  // of who stands, as shares of the straightened length
 constexpr double kHeadAbove = 1.0 / 9, kLeastAbove = 0.05;  // of the height: the head above its joint; where
                                                             // less is, the file leaves it out
@@ -247,7 +247,7 @@ class Looks {
     std::vector<double> heights;
     for (const Look& look : looks_) {
       const auto [low, high] = rangeOf(look, axis);
-      const bool isUpright = dot(look.trunk, directionOf(axis)) >= kUpright * length(look.trunk);
+      const bool isUpright = dot(look.trunk, directionOf(axis)) >= kUprightTrunk * length(look.trunk);
       if (isUpright && high - low >= kShortest * size && high - low <= kTallest * size)
         heights.push_back(high - low);
     }

@@ -8,8 +8,8 @@
 namespace ringlet {
 namespace {
 
-constexpr double kNear = 0.8;     // cosine of the angle to an axis that a direction is taken for
-constexpr double kUpright = 0.5;  // mean cosine of a head's angle to the up axis
+constexpr double kNear = 0.8;         // cosine of the angle to an axis that a direction is taken for
+constexpr double kUprightHead = 0.5;  // mean cosine of a head's angle to the up axis
 
 // In the order of FileAxis.
 constexpr std::array<std::string_view, 6> kNames{"X", "Y", "Z", "-X", "-Y", "-Z"};
@@ -61,7 +61,7 @@ FileAxis jointUpOf(std::span<const HeadPose> poses, FileAxis file) {
     own += dot(rotate(pose.rotation, up), up);
     other += dot(rotate(pose.rotation, usual), up);
   }
-  const double enough = kUpright * static_cast<double>(poses.size());
+  const double enough = kUprightHead * static_cast<double>(poses.size());
   return own < enough && other >= enough ? FileAxis::plusY : file;
 }
 

@@ -32,8 +32,6 @@ Corners cornersOf(const SkinnedMesh& mesh, std::span<const Vec3d> points, std::s
   return {points[a], points[b], points[c]};
 }
 
-bool isFinite(Vec3d v) { return std::isfinite(v.x + v.y + v.z); }
-
 // The triangles roots can be bound to: those with an area have a frame. `indices`: which of the mesh they
 // are.
 TriangleMesh groundOf(const SkinnedMesh& mesh, const std::vector<Vec3d>& points,

@@ -37,8 +37,6 @@ Result<std::size_t> nodeOf(const GltfFile& file, const std::string& wanted) {
       fmt::join(names.begin(), names.begin() + std::min<std::ptrdiff_t>(12, std::ssize(names)), ", "))};
 }
 
-bool isFinite(Vec3d v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
 }  // namespace
 
 Result<SkinnedMesh> SkinnedMesh::of(std::shared_ptr<const GltfFile> file, const SkinnedMeshChoice& choice) {
@@ -63,7 +61,7 @@ Result<SkinnedMesh> SkinnedMesh::of(std::shared_ptr<const GltfFile> file, const 
     }
   }
   mesh.file_ = std::move(file);
-  if (!std::ranges::all_of(mesh.pointsAt(mesh.firstSeconds()), isFinite))
+  if (!std::ranges::all_of(mesh.pointsAt(mesh.firstSeconds()), isFinite<double>))
     return Error{fmt::format("mesh {} has points beyond all numbers", mesh.mesh_->name)};
   return mesh;
 }

@@ -23,12 +23,12 @@
 namespace ringlet {
 namespace {
 
-constexpr std::int32_t kMagic = 20000630, kVersion = 2, kHalf = 1;
+constexpr std::int32_t kExrMagic = 20000630, kExrVersion = 2, kHalf = 1;
 constexpr std::uint8_t kZip = 3;
 constexpr int kBlockLines = 16, kChannels = 3;
 
 // Little-endian.
-class Bytes {
+class ExrBytes {
  public:
   void add(std::integral auto value) {
     for (std::size_t i = 0; i < sizeof value; ++i) all.push_back(static_cast<std::byte>(value >> (8 * i)));
@@ -49,10 +49,10 @@ class Bytes {
   std::vector<std::byte> all;
 };
 
-void addHeader(Bytes& file, std::int32_t width, std::int32_t height) {
-  file.add(kMagic);
-  file.add(kVersion);
-  Bytes channels;
+void addHeader(ExrBytes& file, std::int32_t width, std::int32_t height) {
+  file.add(kExrMagic);
+  file.add(kExrVersion);
+  ExrBytes channels;
   for (const char* name : {"B", "G", "R"}) {
     channels.addText(name);
     for (const std::int32_t number : {kHalf, 0, 1, 1})
@@ -75,7 +75,7 @@ void addHeader(Bytes& file, std::int32_t width, std::int32_t height) {
 }
 
 std::vector<std::byte> linesOf(std::span<const float> pixels, int width, int first, int count) {
-  Bytes lines;
+  ExrBytes lines;
   for (int y = first; y < first + count; ++y)
     for (int channel = kChannels - 1; channel >= 0; --channel)
       for (int x = 0; x < width; ++x)
@@ -105,12 +105,12 @@ Status writeExr(const std::filesystem::path& path, int width, int height, std::s
   RINGLET_ASSERT(
       width > 0 && height > 0 && pixels.size() == static_cast<std::size_t>(width) * height * kChannels,
       "three numbers a pixel");
-  Bytes file;
+  ExrBytes file;
   addHeader(file, width, height);
   const int blocks = (height + kBlockLines - 1) / kBlockLines;
   const std::size_t table = file.all.size();
   file.all.resize(table + 8 * static_cast<std::size_t>(blocks));
-  Bytes offsets;
+  ExrBytes offsets;
   for (int block = 0; block < blocks; ++block) {
     offsets.add(std::uint64_t{file.all.size()});
     const int first = block * kBlockLines;

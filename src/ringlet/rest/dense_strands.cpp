@@ -16,7 +16,7 @@
 namespace ringlet {
 namespace {
 
-constexpr std::size_t kStrandsPerPart = 64;
+constexpr std::size_t kStrandsPerCount = 64;
 
 // tell(i, mass) of each particle of a strand.
 template <class Tell>
@@ -32,7 +32,7 @@ std::vector<double> strandDensities(const RestState& rest, double cell, unsigned
   for (const layout::StrandRest& strand : rest.strands)
     eachParticle(rest, strand, [&](std::uint32_t i, double mass) { all.add(rest.points[i], mass); });
   std::vector<double> densities(rest.strands.size());
-  SharedParts parts(rest.strands.size(), kStrandsPerPart);
+  SharedParts parts(rest.strands.size(), kStrandsPerCount);
   inParallel(threadCount, [&] {
     DensityGrid own(cell);
     parts.take([&](std::size_t begin, std::size_t end) {

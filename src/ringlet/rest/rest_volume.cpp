@@ -11,7 +11,7 @@
 namespace ringlet {
 namespace {
 
-constexpr std::size_t kStrandsPerPart = 64;
+constexpr std::size_t kStrandsPerSum = 64;
 
 double arcLength(const RestState& rest, const layout::StrandRest& strand) {
   double arc = 0;
@@ -59,7 +59,7 @@ void setDensities(const RestState& rest, RestVolume& volume, unsigned threadCoun
 
   volume.densities.resize(count);
   volume.ownDensities.resize(count);
-  SharedParts parts(firsts.size() - 1, kStrandsPerPart);
+  SharedParts parts(firsts.size() - 1, kStrandsPerSum);
   inParallel(threadCount, [&] {
     DensityGrid own(volume.cell);
     parts.take([&](std::size_t begin, std::size_t end) {

@@ -17,7 +17,7 @@
 namespace ringlet {
 namespace {
 
-constexpr std::size_t kCellsPerPart = 4096, kStrandsPerPart = 64;
+constexpr std::size_t kCellsPerPart = 4096, kStrandsPerSearch = 64;
 
 // Cells are this much larger than the largest sphere in them: by more than rounding moves a centre.
 constexpr double kCellMargin = 1 + 1e-6;
@@ -172,7 +172,7 @@ std::vector<StrandOverlap> countOverlaps(const RestState& rest, const ContactPar
   Noted noted(meet(sortBySize(std::move(spheres), enlargement), enlargement, threadCount), strandCount);
 
   std::vector<std::size_t> others(strandCount);  // of each strand
-  SharedParts parts(strandCount, kStrandsPerPart);
+  SharedParts parts(strandCount, kStrandsPerSearch);
   inParallel(threadCount, [&] {
     OverlapRow row(strandCount);
     parts.take([&](std::size_t begin, std::size_t end) {

@@ -11,7 +11,7 @@ namespace ringlet {
 namespace {
 
 // The initial room: blocks of one contact particle, and contact particles per block of the store.
-constexpr std::uint32_t kFirstMostBlocks = 4, kParticlesPerBlock = 4;
+constexpr std::uint32_t kFirstMostLifeBlocks = 4, kParticlesPerBlock = 4;
 
 }  // namespace
 
@@ -19,7 +19,7 @@ Result<ContactLives> ContactLives::create(const ListMaker& maker, int room) {
   ContactLives self;
   self.maker_ = maker;
   const auto blocks = static_cast<std::uint32_t>(maker.contactCount / kParticlesPerBlock + 1);
-  self.room_ = ListRoom{blocks, kFirstMostBlocks}.times(room);
+  self.room_ = ListRoom{blocks, kFirstMostLifeBlocks}.times(room);
   if (Status status = self.createLists(); !status) return status.error();
   return self;
 }

@@ -20,9 +20,8 @@
 namespace ringlet {
 namespace {
 
-constexpr std::uint32_t kGroupSize = kContactGroupSize;
 // Initial limit of the blocks in a contact particle's list.
-constexpr std::uint32_t kFirstMostBlocks = 4;
+constexpr std::uint32_t kFirstMostNearBlocks = 4;
 // contact_motion.comp takes what is left in turns: a maximum then takes fewer atomics, and a processor, for
 // which a barrier is dear, fewer of these.
 constexpr std::uint32_t kMotionGroups = 4096, kMotionGroupsOfCpu = 64;
@@ -107,7 +106,7 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   if (self.contactGroups() > device.properties().maxGroupCount) {
     return Error{fmt::format(
         "{} contact particles are more than the {} this device takes at once; use a larger radius or spacing",
-        count, std::uint64_t{device.properties().maxGroupCount} * kGroupSize)};
+        count, std::uint64_t{device.properties().maxGroupCount} * kContactGroupSize)};
   }
   self.bucketCount_ =
       static_cast<std::uint32_t>(std::bit_ceil(std::max<std::uint64_t>(2 * count, layout::kBucketBlock)));
@@ -119,8 +118,8 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   }
   for (std::size_t k = 0; k < contactKernelCount(self.settings_.taper); ++k) {
     const auto description =
-        describeContactKernel(static_cast<ContactKernel>(k), self.settings_.taper, inGroups, kGroupSize,
-                              texels, !device.properties().isCpu, divided);
+        describeContactKernel(static_cast<ContactKernel>(k), self.settings_.taper, inGroups,
+                              kContactGroupSize, texels, !device.properties().isCpu, divided);
     if (!gpu::Kernel::isCompiled(device, description)) self.newKernels_.push_back(k);
     auto kernel = gpu::Kernel::create(device, description);
     if (!kernel) return kernel.error();
@@ -158,7 +157,7 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   self.buffers_.emplace(Buffers{std::move(*rests), std::move(*neighbours), std::move(*indices),
                                 std::move(*grid), std::move(*places), std::move(*histories),
                                 std::move(*guesses), std::move(*sampled)});
-  self.near_ = ListRoom{static_cast<std::uint32_t>(count), kFirstMostBlocks}.times(room);
+  self.near_ = ListRoom{static_cast<std::uint32_t>(count), kFirstMostNearBlocks}.times(room);
   if (self.settings_.taper == ContactTaper::time) {
     auto lives = ContactLives::create(self.listMaker(), room);
     if (!lives) return lives.error();
@@ -179,7 +178,7 @@ std::uint64_t ContactStage::listBytes() const {
 }
 
 std::uint32_t ContactStage::contactGroups() const {
-  return static_cast<std::uint32_t>((particles_.size() + kGroupSize - 1) / kGroupSize);
+  return static_cast<std::uint32_t>((particles_.size() + kContactGroupSize - 1) / kContactGroupSize);
 }
 
 void ContactStage::readControl() {

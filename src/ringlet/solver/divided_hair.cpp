@@ -13,7 +13,7 @@
 namespace ringlet {
 namespace {
 
-constexpr std::uint32_t kGroupSize = 64;
+constexpr std::uint32_t kJointGroupSize = 64;
 
 gpu::KernelDescription describe(const char* name, std::span<const std::uint32_t> spirv) {
   gpu::KernelDescription description;
@@ -21,8 +21,8 @@ gpu::KernelDescription describe(const char* name, std::span<const std::uint32_t>
   description.spirv = spirv;
   description.remedy = "take another device, or do not divide the hair";
   description.pushConstantBytes = sizeof(layout::PartParameters);
-  description.constants = {{layout::kSpecGroupSize, kGroupSize}};
-  description.groupSize = kGroupSize;
+  description.constants = {{layout::kSpecGroupSize, kJointGroupSize}};
+  description.groupSize = kJointGroupSize;
   return description;
 }
 
@@ -80,7 +80,8 @@ void DividedHair::record(gpu::CommandList& list, const Direction& direction, Row
   const std::uint32_t count = direction.count();
   if (count == 0) return;
   const layout::PartParameters parameters{.count = count, .isStep = rows == Rows::step ? 1u : 0u};
-  list.dispatch(*direction.kernel, *direction.bindings, parameters, (count + kGroupSize - 1) / kGroupSize);
+  list.dispatch(*direction.kernel, *direction.bindings, parameters,
+                (count + kJointGroupSize - 1) / kJointGroupSize);
 }
 
 void DividedHair::recordOut(gpu::CommandList& list, Rows rows) const { record(list, out_, rows); }

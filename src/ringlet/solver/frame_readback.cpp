@@ -12,7 +12,7 @@
 namespace ringlet {
 namespace {
 
-constexpr std::uint32_t kGroupSize = 64;
+constexpr std::uint32_t kReadbackGroupSize = 64;
 constexpr std::uint64_t kPlaceBytes = sizeof(Vec3f);
 static_assert(kPlaceBytes == 3 * sizeof(float));
 
@@ -22,8 +22,8 @@ gpu::KernelDescription describe() {
   description.spirv = k_frame_positions_plain;
   description.remedy = "take another device, or keep positions on the device";
   description.pushConstantBytes = sizeof(layout::FrameParameters);
-  description.constants = {{layout::kSpecGroupSize, kGroupSize}};
-  description.groupSize = kGroupSize;
+  description.constants = {{layout::kSpecGroupSize, kReadbackGroupSize}};
+  description.groupSize = kReadbackGroupSize;
   return description;
 }
 
@@ -120,7 +120,8 @@ void FrameReadback::record(gpu::CommandList& list) const {
     list.copyBuffer(groom_->chunks[c].positions, copies_[c],
                     groom_->chunks[c].part.particleCount() * sizeof(layout::vec4));
   for (const Piece& piece : pieces_) {
-    const std::uint32_t groups = std::min((piece.count + kGroupSize - 1) / kGroupSize, mostGroups_);
+    const std::uint32_t groups =
+        std::min((piece.count + kReadbackGroupSize - 1) / kReadbackGroupSize, mostGroups_);
     if (groups == 0) continue;
     list.dispatch(*kernel_, piece.bindings, layout::FrameParameters{piece.count, piece.begin, piece.end},
                   groups);
