@@ -3,10 +3,13 @@
 // gpu/recorder.h.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "ringlet/gpu/recorder.h"
 #include "ringlet/solver/simulation.h"
+#include "ringlet/solver/submission_pace.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/kernel_spy.h"
 #include "tests/support/parity.h"
@@ -48,6 +51,16 @@ void expectBarriers(const SpiedCommands& commands, bool isWaitedFor) {
   if (isWaitedFor) expectBarrierToHost(commands.back());
 }
 
+// What a capture tool shows: spans with names, one after the other, which all end.
+void expectLabels(const std::vector<std::string>& labels, const std::string& one) {
+  EXPECT_TRUE(std::ranges::count(labels, one)) << one;
+  ASSERT_EQ(labels.size() % 2, 0u);
+  for (std::size_t k = 0; k < labels.size(); k += 2) {
+    EXPECT_FALSE(labels[k].empty()) << k;
+    EXPECT_TRUE(labels[k + 1].empty()) << labels[k] << " does not end before " << labels[k + 1];
+  }
+}
+
 class HostRecording : public GpuTest {
  protected:
   // Frames, reads and writes of some hair on a device of its own; each submission is looked at.
@@ -75,6 +88,7 @@ class HostRecording : public GpuTest {
       EXPECT_TRUE(hair->report());
     }
     EXPECT_GE(submissions, 2);
+    expectLabels(spy.labels(), SubmissionPace::kStrandStage);
     expectNoMessages(*(*opened)->validationLog());
   }
 };
@@ -115,13 +129,16 @@ TEST_F(HostRecording, CommandsOfAHostHaveTheirBarriers) {
          to = gpu::Buffer::create(own, 64, gpu::BufferKind::stream, "to");
     ASSERT_TRUE(from && to);
     gpu::CommandList list;
+    list.beginStage("fill and copy");
     list.fillZero(*from);
     list.barrier();
     list.copyBuffer(*from, *to, 64);
+    list.endStage();
     list.recordInto(own, commands);
     EXPECT_EQ(own.vk().vkEndCommandBuffer(commands), VK_SUCCESS);
     EXPECT_EQ(spy.recorded(commands).size(), 5u);
     expectBarriers(spy.recorded(commands), true);
+    EXPECT_EQ(spy.labels(), (std::vector<std::string>{"fill and copy", ""}));
     own.vk().vkDestroyCommandPool(own.handle(), pool, nullptr);
   }
   expectNoMessages(*own.validationLog());

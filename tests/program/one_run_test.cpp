@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "ringlet/c/handles.h"
 #include "ringlet/c/ringlet_io.h"
 #include "ringlet/output/positions_hash.h"
 #include "ringlet/run/scene_run.h"
@@ -68,18 +69,6 @@ std::vector<Case> cases() {
   };
 }
 
-class CloseCDevice {
- public:
-  void operator()(ringlet_device* device) const { ringlet_device_release(device); }
-};
-using CDevice = std::unique_ptr<ringlet_device, CloseCDevice>;
-
-CDevice openCDevice() {
-  ringlet_device* device = nullptr;
-  EXPECT_EQ(ringlet_device_open(nullptr, &device), RINGLET_OK) << ringlet_error_message();
-  return CDevice(device);
-}
-
 // Each device is opened once, and Python once, so that a kernel is compiled once by each, and not for each
 // scene.
 class OneRun : public test::GpuTest {
@@ -92,9 +81,6 @@ class OneRun : public test::GpuTest {
                                    "--length", "0.2", "-o", "groom.obj"})
                   .exitCode,
               0);
-    first_ = openCDevice();
-    second_ = openCDevice();
-    ASSERT_TRUE(first_ && second_);
   }
 
   std::string byProgram(const fs::path& scene) {
@@ -128,7 +114,8 @@ class OneRun : public test::GpuTest {
   }
   std::string byC(const fs::path& path, std::uint32_t deviceCount) {
     ringlet_scene* scene = nullptr;
-    ringlet_device* const devices[] = {first_.get(), second_.get()};
+    ringlet_device own{device(), "the tests' own"};
+    ringlet_device* const devices[] = {&own, &own};
     ringlet_run_options options = RINGLET_INIT(ringlet_run_options);
     options.frame_count = kFrames;
     options.devices = devices;
@@ -162,8 +149,6 @@ class OneRun : public test::GpuTest {
 #ifdef RINGLET_PYTHON
     expectPythonHas();
 #endif
-    first_.reset();
-    second_.reset();
     GpuTest::TearDown();
   }
 #ifdef RINGLET_PYTHON
@@ -191,7 +176,6 @@ class OneRun : public test::GpuTest {
 #endif
 
   const fs::path folder_ = test::scratchFolder("one_run");
-  CDevice first_, second_;
   std::vector<std::pair<fs::path, std::string>> seen_;  // scenes and their hashes
 };
 

@@ -24,6 +24,9 @@ struct KernelSpy::State {
   std::shared_ptr<gpu::Device> device;
   VolkDeviceTable real{};
   VolkDeviceTable& table() const { return const_cast<VolkDeviceTable&>(device->vk()); }
+  gpu::Device::DebugCalls& debug() const {
+    return const_cast<gpu::Device::DebugCalls&>(device->debugCalls());
+  }
 
   std::map<VkShaderModule, std::vector<std::uint32_t>> modules;
   std::map<VkPipeline, std::vector<std::uint32_t>> pipelines;
@@ -33,6 +36,8 @@ struct KernelSpy::State {
   std::map<VkDescriptorSet, std::map<std::uint32_t, VkDescriptorBufferInfo>> sets;
   std::map<VkCommandBuffer, Current> recordings;
   SpiedCommands submitted;
+  gpu::Device::DebugCalls realDebug;
+  std::vector<std::string> labels;
 };
 
 namespace {
@@ -112,6 +117,14 @@ struct SpyCalls {
     of(commands).dispatch.pushConstants.assign(bytes, bytes + count);
     spy().real.vkCmdPushConstants(commands, layout, stages, offset, count, values);
   }
+  static void beginLabel(VkCommandBuffer commands, const VkDebugUtilsLabelEXT* label) {
+    spy().labels.emplace_back(label->pLabelName);
+    spy().realDebug.begin(commands, label);
+  }
+  static void endLabel(VkCommandBuffer commands) {
+    spy().labels.emplace_back();
+    spy().realDebug.end(commands);
+  }
   static void dispatch(VkCommandBuffer commands, std::uint32_t x, std::uint32_t y, std::uint32_t z) {
     if (x > 0) of(commands).commands.push_back(of(commands).dispatch);
     spy().real.vkCmdDispatch(commands, x, y, z);
@@ -188,12 +201,18 @@ KernelSpy::KernelSpy(gpu::Device& device) : self_(std::make_unique<State>()) {
   table.vkCmdPipelineBarrier = SpyCalls::pipelineBarrier;
   table.vkQueueSubmit = SpyCalls::queueSubmit;
   table.vkWaitForFences = SpyCalls::waitForFences;
+  self_->realDebug = device.debugCalls();
+  if (self_->realDebug.begin)
+    self_->debug() = {self_->realDebug.name, SpyCalls::beginLabel, SpyCalls::endLabel};
 }
 
 KernelSpy::~KernelSpy() {
   self_->table() = self_->real;
+  self_->debug() = self_->realDebug;
   theSpy = nullptr;
 }
+
+const std::vector<std::string>& KernelSpy::labels() const { return self_->labels; }
 
 const SpiedCommands& KernelSpy::recorded(VkCommandBuffer commands) const {
   return self_->recordings.at(commands).commands;

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "ringlet/gpu/device.h"
@@ -41,6 +42,8 @@ class KernelSpy {
 
   /// What was recorded into a command buffer so far.
   const SpiedCommands& recorded(VkCommandBuffer commands) const;
+  /// The labels of all command buffers: its name where one begins, nothing where it ends.
+  const std::vector<std::string>& labels() const;
   /// SPIR-V.
   const std::vector<std::uint32_t>& codeOf(VkPipeline pipeline) const;
   /// Of its storage and uniform buffers those that the host sees, by binding.

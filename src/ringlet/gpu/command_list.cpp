@@ -179,7 +179,12 @@ std::vector<std::string> CommandList::recorded() const {
 
 void CommandList::recordInto(const Device& device, VkCommandBuffer commands) const {
   recordCommand(device.vk(), commands, command::Barrier{});  // against what stands before
-  for (const Command* command : inOrder()) recordCommand(device.vk(), commands, *command);
+  for (const Command* command : inOrder()) {
+    if (const auto* stage = std::get_if<command::BeginStage>(command))
+      device.beginLabel(commands, stage->name);
+    if (is<command::EndStage>(*command)) device.endLabel(commands);
+    recordCommand(device.vk(), commands, *command);
+  }
   recordHostBarrier(device.vk(), commands);
 }
 

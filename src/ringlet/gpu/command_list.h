@@ -110,7 +110,8 @@ class CommandList {
   std::vector<std::string> recorded() const;
 
   /// Into a command buffer of a host's, which is being recorded and goes to a queue that computes. It begins
-  /// and ends with a barrier between compute, copies and, at the end, the host. Stages and cuts do not count.
+  /// and ends with a barrier between compute, copies and, at the end, the host. Stages are labels there; cuts
+  /// do not count.
   void recordInto(const Device& device, VkCommandBuffer commands) const;
 
  protected:

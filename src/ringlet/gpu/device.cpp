@@ -24,6 +24,15 @@
 namespace ringlet::gpu {
 namespace {
 
+Device::DebugCalls debugCallsOf(VkInstance instance) {
+  const auto find = [&](const char* name) { return vkGetInstanceProcAddr(instance, name); };
+  return {
+      reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(find("vkSetDebugUtilsObjectNameEXT")),
+      reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(find("vkCmdBeginDebugUtilsLabelEXT")),
+      reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(find("vkCmdEndDebugUtilsLabelEXT")),
+  };
+}
+
 // Everything opening needs to know of a device, found without opening it.
 struct Candidate {
   VkPhysicalDevice handle = VK_NULL_HANDLE;
@@ -394,10 +403,7 @@ Result<std::shared_ptr<Device>> Device::open(const std::string& choice, const De
 
   volkLoadDeviceTable(&self->table_, self->device_);
   self->table_.vkGetDeviceQueue(self->device_, candidate.queueFamily, 0, &self->queue_);
-  if (self->validationLog()) {
-    self->setObjectName_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
-        vkGetInstanceProcAddr(self->instance_->handle(), "vkSetDebugUtilsObjectNameEXT"));
-  }
+  if (self->instance_->hasDebugUtils()) self->debugCalls_ = debugCallsOf(self->instance_->handle());
 
   if (Status opened = self->openPipelineCache(candidate.handle, cacheFolder); !opened) return opened.error();
   return self;
@@ -577,12 +583,23 @@ std::chrono::steady_clock::time_point Device::noteWait(std::chrono::steady_clock
 }
 
 void Device::nameObject(VkObjectType type, std::uint64_t handle, const std::string& name) const {
-  if (!setObjectName_) return;
+  if (!debugCalls_.name) return;
   auto info = zeroed<VkDebugUtilsObjectNameInfoEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT);
   info.objectType = type;
   info.objectHandle = handle;
   info.pObjectName = name.c_str();
-  setObjectName_(device_, &info);  // a name that fails to stick is no loss
+  debugCalls_.name(device_, &info);  // a name that fails to stick is no loss
+}
+
+void Device::beginLabel(VkCommandBuffer commands, const std::string& name) const {
+  if (!debugCalls_.begin) return;
+  auto label = zeroed<VkDebugUtilsLabelEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT);
+  label.pLabelName = name.c_str();
+  debugCalls_.begin(commands, &label);
+}
+
+void Device::endLabel(VkCommandBuffer commands) const {
+  if (debugCalls_.end) debugCalls_.end(commands);
 }
 
 }  // namespace ringlet::gpu

@@ -198,8 +198,18 @@ class Device : public std::enable_shared_from_this<Device> {
   std::uint64_t submissionCount() const { return submissionCount_; }
   /// Notes when a wait for a submission ended, and returns when the last one did. Thread-safe.
   std::chrono::steady_clock::time_point noteWait(std::chrono::steady_clock::time_point now);
-  /// Names an object in validation messages; has no effect if the layer is off.
+  /// Names an object for validation messages and capture tools, where the loader has VK_EXT_debug_utils.
   void nameObject(VkObjectType type, std::uint64_t handle, const std::string& name) const;
+  /// The same for commands, from the first call to the second.
+  void beginLabel(VkCommandBuffer commands, const std::string& name) const;
+  void endLabel(VkCommandBuffer commands) const;
+  /// All empty without that extension.
+  struct DebugCalls {
+    PFN_vkSetDebugUtilsObjectNameEXT name = nullptr;
+    PFN_vkCmdBeginDebugUtilsLabelEXT begin = nullptr;
+    PFN_vkCmdEndDebugUtilsLabelEXT end = nullptr;
+  };
+  const DebugCalls& debugCalls() const { return debugCalls_; }
 
  private:
   Device();
@@ -228,7 +238,7 @@ class Device : public std::enable_shared_from_this<Device> {
   PipelineCacheOwner pipelineCacheOwner_;
   std::size_t pipelineCacheBytes_ = 0;  // when it was new
   VkPhysicalDeviceMemoryProperties memory_{};
-  PFN_vkSetDebugUtilsObjectNameEXT setObjectName_ = nullptr;
+  DebugCalls debugCalls_;
   DeviceProperties properties_;
   DeviceOptions options_;
   const int process_;  // that opened it

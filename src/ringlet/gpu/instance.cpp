@@ -164,10 +164,12 @@ Result<std::unique_ptr<Instance>> Instance::create(bool validation, std::span<co
           kValidationLayer)};
     }
     layerNames.push_back(kValidationLayer);
-    extensionNames.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     extensionNames.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
     self->validationLog_ = std::make_shared<ValidationLog>();
   }
+  // Names for messages and capture tools; the layer has it where the loader has not.
+  self->hasDebugUtils_ = validation || contains(*extensions, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+  if (self->hasDebugUtils_) extensionNames.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
 
   // The messenger stands in the chain too, so that the instance's own creation and end are watched.
   const std::array enabled{VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};

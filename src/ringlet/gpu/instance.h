@@ -45,6 +45,8 @@ class Instance {
   std::uint32_t apiVersion() const { return apiVersion_; }
   /// Empty unless validation is on. It outlives the instance, so that messages about leaks can be read.
   const std::shared_ptr<ValidationLog>& validationLog() const { return validationLog_; }
+  /// Whether VK_EXT_debug_utils is on: where the loader has it, but not known of a host's instance.
+  bool hasDebugUtils() const { return hasDebugUtils_; }
 
  private:
   Instance() = default;
@@ -54,6 +56,7 @@ class Instance {
   std::uint32_t apiVersion_ = 0;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
   std::shared_ptr<ValidationLog> validationLog_;
+  bool hasDebugUtils_ = false;
 };
 
 }  // namespace ringlet::gpu

@@ -79,6 +79,7 @@ struct Recorder::State {
 
   Status beginStage(const std::string& stage) {
     stages.push_back(stage);
+    device->beginLabel(commands, stage);
     if (!device->properties().hasTimestamps) return {};
     if (Status status = preparePool(stages.size() - 1); !status) return status;
     writeTimestamp(stages.size() - 1, 0);
@@ -86,6 +87,7 @@ struct Recorder::State {
   }
   void endStage() {
     if (device->properties().hasTimestamps) writeTimestamp(stages.size() - 1, 1);
+    device->endLabel(commands);
   }
 
   Status waitForFence() {
