@@ -24,6 +24,7 @@
 #include "program/cli/groom_options.h"
 #include "program/cli/standard_output.h"
 #include "program/convert/material_command.h"
+#include "program/simulate/dump_run.h"
 #include "program/simulate/hair_maker.h"
 #include "program/simulate/output_options.h"
 #include "program/simulate/rendered_sheet.h"
@@ -106,6 +107,7 @@ struct TypedSimulate {
   std::string backend = "gpu", device, kernel = "auto";
   std::vector<std::string> devices;
   std::optional<int> checkpoint;
+  std::optional<std::uint64_t> dump;
   bool measuresContacts = false, noChebyshev = false, untuned = false, json = false, quiet = false,
        jsonProgress = false, resume = false, overwrite = false;
 };
@@ -225,6 +227,8 @@ void checkOptions(const TypedSimulate& typed, const SceneFile& scene) {
     throw CLI::ValidationError(typed.lanes ? "--lanes" : "--run",
                                "only --backend gpu with --kernel auto, lanes or memory has lanes and runs");
   }
+  if (typed.dump && (typed.backend == "reference" || typed.devices.size() > 1))
+    throw CLI::ValidationError("--dump", "only --backend gpu on one device has buffers to write");
   if (typed.subgroup && (typed.backend == "reference" || typed.kernel == "serial")) {
     throw CLI::ValidationError("--subgroup",
                                "only --backend gpu with --kernel auto, lanes or memory asks for subgroups");
@@ -282,6 +286,7 @@ int run(const TypedSimulate& typed) {
     return fail("simulate", prepared.error());
   const auto loaded = loadScene(*scene, origin ? &*origin : nullptr);
   if (!loaded) return fail("simulate", loaded.error());
+  if (typed.dump) return runDump(*loaded, options, *typed.dump);
   if (const auto exitCode = joinRun(*loaded, options)) return *exitCode;
   const auto outcome = simulate(*loaded, options);
   if (!outcome) return fail("simulate", outcome.error());
@@ -509,6 +514,13 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
   command->add_option("--subgroup", typed->subgroup, kSubgroupHelp)
       ->check(wholeBetween(1, 128))
       ->type_name("N")
+      ->group(machine);
+  command
+      ->add_option("--dump", typed->dump,
+                   "In place of a run: what the device holds after this step of it, a file a buffer in "
+                   "OUTPUT/step_STEP")
+      ->check(wholeBetween(1, 1000000000))
+      ->type_name("STEP")
       ->group(machine);
   command
       ->add_flag("--untuned", typed->untuned,

@@ -83,6 +83,8 @@ class ContactStage {
 
   /// Size of the constant buffers, and of the lists [bytes].
   std::uint64_t bytes() const;
+  /// What its kernels see.
+  gpu::BufferTable bufferTable() const;
   std::uint64_t listBytes() const;
 
   /// Number of pairs that the search has tested since the simulation began; each counts for both particles.
@@ -115,7 +117,6 @@ class ContactStage {
   enum ListPart { kHeads, kPairs };
   Status createLists();
   Status bindLists();
-  gpu::BufferTable bufferTable() const;
   layout::ContactParameters parameters(std::uint32_t step) const;
   void dispatch(gpu::CommandList& list, ContactKernel kernel, std::uint32_t step,
                 std::uint32_t groupCount) const;

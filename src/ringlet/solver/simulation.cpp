@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "layout/strands.h"
@@ -404,6 +406,26 @@ std::vector<std::string> ContactReport::warnings() const {
         volumeCoarsest));
   }
   return sentences;
+}
+
+Result<std::vector<BufferContent>> Simulation::bufferContents() const {
+  if (Status status = self_->finishFrames(); !status) return status.error();
+  std::map<std::string, const gpu::Buffer*> buffers;
+  const auto add = [&](const gpu::BufferTable& table, const std::string& ending) {
+    for (const auto& [binding, buffer] : table)
+      buffers.try_emplace(buffer.get().name() + ending, &buffer.get());
+  };
+  for (std::size_t chunk = 0; chunk < self_->buffers.chunks.size(); ++chunk)
+    add(self_->bufferTable(chunk), chunk > 0 ? fmt::format("_{}", chunk) : "");
+  if (self_->contacts) add(self_->contacts->bufferTable(), "");
+  if (self_->volume) add(self_->volume->bufferTable(), "");
+  std::vector<BufferContent> contents;
+  for (const auto& [name, buffer] : buffers) {
+    std::vector<std::byte> bytes(buffer->bytes());
+    if (Status read = buffer->download(bytes); !read) return read.error();
+    contents.push_back({name, std::move(bytes)});
+  }
+  return contents;
 }
 
 Result<ContactReport> Simulation::contactReport() const {

@@ -93,6 +93,11 @@ struct ContactReport {
 };
 
 /// Sizes of a simulation's buffers in bytes (docs/memory.md).
+struct BufferContent {
+  std::string name;
+  std::vector<std::byte> bytes;
+};
+
 struct DeviceMemory {
   std::uint64_t particles = 0;     // state, rest, taps, contact terms of a solve
   std::uint64_t strands = 0;       // constants, reports
@@ -326,6 +331,10 @@ class Simulation {
   /// Time to make the kernels, mostly the driver's compiler [ms]. It is part of create. A device compiles
   /// each kernel once for all its simulations.
   double compileMilliseconds() const;
+  /// What the device holds in each buffer that the hair's kernels see, for those who look for a fault; a
+  /// buffer of the groom's second chunk is called NAME_1, and so on. Layouts: shaders/shared and
+  /// shaders/layout.
+  Result<std::vector<BufferContent>> bufferContents() const;
   /// The recording of the last frame submitted, or of the first one, for tests (Recorder::recorded).
   std::vector<std::string> recordedFrame() const;
   /// The kernel variants in use, e.g. "lanes 4 x 16 (subgroup 8)".

@@ -95,13 +95,14 @@ class VolumeStage {
   Result<VolumeReach> reached() const;
 
   std::uint64_t bytes() const;
+  /// What its kernels see.
+  gpu::BufferTable bufferTable() const;
 
  private:
   struct Buffers {
     gpu::Buffer particles, states, brought, cells, parcels, nodes, control, located, sums, controlRead;
   };
   VolumeStage() = default;
-  gpu::BufferTable bufferTable() const;
   layout::VolumeParameters parameters(std::uint32_t step) const;
   void dispatch(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step, std::uint32_t groups) const;
   void dispatchParticles(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step) const;

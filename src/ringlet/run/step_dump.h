@@ -1,0 +1,20 @@
+// What a device holds after one step of a scene, in files, for those who look for a fault.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "ringlet/base/result.h"
+#include "ringlet/run/device_hair.h"
+#include "ringlet/scenes/load_scene.h"
+
+namespace ringlet {
+
+/// Steps the scene's hair as a run does, to the end of a step, 1 being the first after the pre-roll, and
+/// writes each buffer (Simulation::bufferContents) into the new folder: NAME.bin, and buffers.txt with a line
+/// for each, its bytes and its name. Errors: the folder is there, or cannot be written; the scene has fewer
+/// steps.
+Status dumpStep(const LoadedScene& scene, const DeviceHairChoice& choice, std::uint64_t step,
+                const std::filesystem::path& folder);
+
+}  // namespace ringlet
