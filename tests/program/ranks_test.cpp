@@ -195,6 +195,7 @@ TEST_F(Ranks, WhatIsWrongIsSaidOnce) {
   refused(2, "simulate absent.obj -o out", "absent.obj");
   refused(2, "simulate head.obj --device nosuch -o out", "nosuch");
   refused(2, "simulate head.obj --frames none -o out", "--frames");
+  refused(2, "simulate head.obj --frames 1 --dump 1 -o out", "start it without mpirun");
   ASSERT_EQ(runProgram(folder_, {"make", "curl", "-o", "curl.obj"}).exitCode, 0);
   refused(2, "simulate curl.obj -o out", "2 ranks are more than the groom's 1 strands");
   // Rank 0 alone has a folder.

@@ -73,7 +73,12 @@ TEST_F(StepDump, HoldsWhatTheRunHasThen) {
     }
     const std::string list = test::readText(folder_ / std::to_string(steps) / "buffers.txt");
     EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(list, '\n')), run.size());
-    for (const BufferContent& buffer : run) EXPECT_NE(list.find(" " + buffer.name + "\n"), std::string::npos);
+    for (const BufferContent& buffer : run) {
+      std::string file = buffer.name + ".bin";
+      std::ranges::replace(file, ' ', '_');
+      EXPECT_NE(list.find(" " + file + "\n"), std::string::npos) << file;
+      EXPECT_EQ(fs::file_size(folder_ / std::to_string(steps) / file), buffer.bytes.size()) << file;
+    }
   }
 }
 

@@ -6,11 +6,14 @@
 #include "program/cli/exit_codes.h"
 #include "program/cli/standard_output.h"
 #include "program/device/gpu_hair.h"
+#include "program/simulate/hair_maker.h"
 #include "ringlet/run/step_dump.h"
 
 namespace ringlet::program {
 
 int runDump(const LoadedScene& scene, const SimulateOptions& options, std::uint64_t step) {
+  if (isOneOfRanks())
+    return fail("simulate", {"--dump writes what one device holds; start it without mpirun", Fault::input});
   const SceneFrames frames(scene);
   const auto choice =
       GpuChoice::make(hairInputOf(scene, frames, options), options, options.device, options.showProgress);

@@ -35,8 +35,10 @@ Result<std::unique_ptr<SceneHair>> makeHair(const SceneHairInput& input, const S
   return makeGpuHair(input, options, options.showProgress);
 }
 
+bool isOneOfRanks() { return mpi::ranks().count > 1; }
+
 std::optional<int> joinRun(const LoadedScene& scene, SimulateOptions& options) {
-  options.onRanks = mpi::ranks().count > 1;
+  options.onRanks = isOneOfRanks();
   if (mpi::ranks().own == 0) return std::nullopt;
   catchInterruption();  // rank 0 says when this one ends
   const SceneFrames frames(scene);

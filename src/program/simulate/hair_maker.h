@@ -14,6 +14,8 @@ namespace ringlet::program {
 /// Errors: those of the device and of the hair; more devices than strands.
 Result<std::unique_ptr<SceneHair>> makeHair(const SceneHairInput& input, const SimulateOptions& options);
 
+/// Whether mpirun started more than this process.
+bool isOneOfRanks();
 /// Under mpirun: takes part in the run that `simulate` begins on rank 0. An exit status: this is another
 /// rank, and the run is over.
 std::optional<int> joinRun(const LoadedScene& scene, SimulateOptions& options);

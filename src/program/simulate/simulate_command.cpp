@@ -227,8 +227,8 @@ void checkOptions(const TypedSimulate& typed, const SceneFile& scene) {
     throw CLI::ValidationError(typed.lanes ? "--lanes" : "--run",
                                "only --backend gpu with --kernel auto, lanes or memory has lanes and runs");
   }
-  if (typed.dump && (typed.backend == "reference" || typed.devices.size() > 1))
-    throw CLI::ValidationError("--dump", "only --backend gpu on one device has buffers to write");
+  if (typed.dump && typed.backend == "reference")
+    throw CLI::ValidationError("--dump", "only --backend gpu has buffers to write");
   if (typed.subgroup && (typed.backend == "reference" || typed.kernel == "serial")) {
     throw CLI::ValidationError("--subgroup",
                                "only --backend gpu with --kernel auto, lanes or memory asks for subgroups");
@@ -516,13 +516,6 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       ->type_name("N")
       ->group(machine);
   command
-      ->add_option("--dump", typed->dump,
-                   "In place of a run: what the device holds after this step of it, a file a buffer in "
-                   "OUTPUT/step_STEP")
-      ->check(wholeBetween(1, 1000000000))
-      ->type_name("STEP")
-      ->group(machine);
-  command
       ->add_flag("--untuned", typed->untuned,
                  "Choose lanes and run by the built-in model, whatever `ringlet tune` measured")
       ->group(machine);
@@ -556,6 +549,13 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       ->group(output);
   command->add_flag("--json", typed->json, "Print one JSON object instead of the summary")->group(output);
   command->add_flag("--quiet", typed->quiet, "No progress bar and no summary")->group(output);
+  CLI::Option* dump = command->add_option("--dump", typed->dump,
+                                          "In place of a run: what the device holds after this step of it, a "
+                                          "file a buffer, into DIR/step_STEP");
+  dump->check(wholeBetween(1, 1000000000))->type_name("STEP")->group(output);
+  for (const char* ofARun : {"--devices", "--measure-contacts", "--checkpoint", "--resume", "--overwrite",
+                             "--json-progress", "--json"})
+    dump->excludes(ofARun);
 
   command->callback([typed, &exitCode] { exitCode = run(*typed); });
 }

@@ -15,7 +15,6 @@
 namespace ringlet::gpu {
 namespace {
 
-constexpr std::uint64_t kRecordBytes = 16;  // a vec4, the largest unit kernels read
 constexpr std::uint64_t kStagingBytes = 32ull
                                         << 20;  // larger copies go in pieces, to bound the host's memory
 

@@ -23,6 +23,9 @@ enum class BufferKind {
 /// as small as the device wants it.
 enum class BufferUse { whole, inParts };
 
+/// A vec4, the largest unit kernels read [bytes].
+inline constexpr std::uint64_t kRecordBytes = 16;
+
 class Buffer {
  public:
   /// The content is undefined until written. No bytes are fine, and can be bound. `name` is for messages.

@@ -34,11 +34,10 @@ std::uint32_t countOf(const std::vector<KernelBinding>& bindings, BindingKind ki
 
 // The buffer's records as texels, as many as the device sees.
 std::pair<VkResult, OwnedBufferView> viewOf(Device& device, const Buffer& buffer) {
-  constexpr std::uint64_t kTexelBytes = 16;
   auto info = zeroed<VkBufferViewCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO);
   info.buffer = buffer.handle();
   info.format = VK_FORMAT_R32G32B32A32_UINT;
-  info.range = std::min(buffer.capacity(), device.properties().maxTexelRecords * kTexelBytes);
+  info.range = std::min(buffer.capacity(), device.properties().maxTexelRecords * kRecordBytes);
   VkBufferView view = VK_NULL_HANDLE;
   const VkResult result = device.vk().vkCreateBufferView(device.handle(), &info, nullptr, &view);
   return {result, OwnedBufferView(device.shared_from_this(), view)};

@@ -11,12 +11,11 @@
 #include "ringlet/rest/cell_map.h"
 #include "ringlet/rest/contact_particles.h"
 #include "ringlet/rest/density_grid.h"
+#include "ringlet/rest/strands_per_part.h"
 #include "ringlet/scene/contact_settings.h"
 
 namespace ringlet {
 namespace {
-
-constexpr std::size_t kStrandsPerCount = 64;
 
 // tell(i, mass) of each particle of a strand.
 template <class Tell>
@@ -32,7 +31,7 @@ std::vector<double> strandDensities(const RestState& rest, double cell, unsigned
   for (const layout::StrandRest& strand : rest.strands)
     eachParticle(rest, strand, [&](std::uint32_t i, double mass) { all.add(rest.points[i], mass); });
   std::vector<double> densities(rest.strands.size());
-  SharedParts parts(rest.strands.size(), kStrandsPerCount);
+  SharedParts parts(rest.strands.size(), kStrandsPerPart);
   inParallel(threadCount, [&] {
     DensityGrid own(cell);
     parts.take([&](std::size_t begin, std::size_t end) {

@@ -14,6 +14,7 @@
 #include "ringlet/rest/rest_curve.h"
 #include "ringlet/rest/rigid_strands.h"
 #include "ringlet/rest/strand_constants.h"
+#include "ringlet/rest/strands_per_part.h"
 #include "ringlet/scene/settings_fields.h"
 
 namespace ringlet {
@@ -21,8 +22,6 @@ namespace {
 
 // Further away [m] nothing is: squares of such numbers, and of speeds between them, are still floats.
 constexpr double kFarthest = 1e9;
-
-constexpr std::size_t kStrandsPerPart = 64;  // that a thread takes at once
 
 layout::vec3 packed3(Vec3d v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};

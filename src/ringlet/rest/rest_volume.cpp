@@ -7,11 +7,10 @@
 #include "layout/strands.h"
 #include "ringlet/base/bounds.h"
 #include "ringlet/rest/density_grid.h"
+#include "ringlet/rest/strands_per_part.h"
 
 namespace ringlet {
 namespace {
-
-constexpr std::size_t kStrandsPerSum = 64;
 
 double arcLength(const RestState& rest, const layout::StrandRest& strand) {
   double arc = 0;
@@ -59,7 +58,7 @@ void setDensities(const RestState& rest, RestVolume& volume, unsigned threadCoun
 
   volume.densities.resize(count);
   volume.ownDensities.resize(count);
-  SharedParts parts(firsts.size() - 1, kStrandsPerSum);
+  SharedParts parts(firsts.size() - 1, kStrandsPerPart);
   inParallel(threadCount, [&] {
     DensityGrid own(volume.cell);
     parts.take([&](std::size_t begin, std::size_t end) {

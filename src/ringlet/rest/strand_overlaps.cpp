@@ -13,11 +13,12 @@
 
 #include "ringlet/base/bounds.h"
 #include "ringlet/rest/sphere_cells.h"
+#include "ringlet/rest/strands_per_part.h"
 
 namespace ringlet {
 namespace {
 
-constexpr std::size_t kCellsPerPart = 4096, kStrandsPerSearch = 64;
+constexpr std::size_t kCellsPerPart = 4096;
 
 // Cells are this much larger than the largest sphere in them: by more than rounding moves a centre.
 constexpr double kCellMargin = 1 + 1e-6;
@@ -172,7 +173,7 @@ std::vector<StrandOverlap> countOverlaps(const RestState& rest, const ContactPar
   Noted noted(meet(sortBySize(std::move(spheres), enlargement), enlargement, threadCount), strandCount);
 
   std::vector<std::size_t> others(strandCount);  // of each strand
-  SharedParts parts(strandCount, kStrandsPerSearch);
+  SharedParts parts(strandCount, kStrandsPerPart);
   inParallel(threadCount, [&] {
     OverlapRow row(strandCount);
     parts.take([&](std::size_t begin, std::size_t end) {

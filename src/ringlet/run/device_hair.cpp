@@ -68,14 +68,17 @@ class DeviceHair : public SceneHair {
 
 }  // namespace
 
-Result<std::unique_ptr<SceneHair>> makeDeviceHair(const SceneHairInput& input, DeviceHairChoice choice) {
+Result<Simulation> makeSimulation(const SceneHairInput& input, DeviceHairChoice choice) {
   const ScenePlaces start = input.frames.placesAt(input.frames.first());
   choice.kernel.geometry = input.scene.geometry.get();
   choice.kernel.residual = input.measuresResidual;
   choice.kernel.rest = input.rest;
-  auto simulation =
-      Simulation::create(choice.device, input.scene.groom, input.scene.material, input.settings(),
-                         stateOf(start, input.scene), kernelOf(input.scene, choice.kernel));
+  return Simulation::create(choice.device, input.scene.groom, input.scene.material, input.settings(),
+                            stateOf(start, input.scene), kernelOf(input.scene, choice.kernel));
+}
+
+Result<std::unique_ptr<SceneHair>> makeDeviceHair(const SceneHairInput& input, DeviceHairChoice choice) {
+  auto simulation = makeSimulation(input, choice);
   if (!simulation) return simulation.error();
   return std::unique_ptr<SceneHair>(
       std::make_unique<DeviceHair>(choice, std::move(*simulation), input.isStepByStep));

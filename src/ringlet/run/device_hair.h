@@ -9,6 +9,7 @@
 #include "ringlet/run/scene_hair.h"
 #include "ringlet/solver/compute_device.h"
 #include "ringlet/solver/kernel_choice.h"
+#include "ringlet/solver/simulation.h"
 
 namespace ringlet {
 
@@ -18,7 +19,9 @@ struct DeviceHairChoice {
   std::vector<std::string> messages{};  // of the device, that facts() say before its own
 };
 
-/// Errors: those of Simulation::create.
+/// The scene's hair where its first frame begins. Errors: those of Simulation::create.
+Result<Simulation> makeSimulation(const SceneHairInput& input, DeviceHairChoice choice);
+/// The same for a run.
 Result<std::unique_ptr<SceneHair>> makeDeviceHair(const SceneHairInput& input, DeviceHairChoice choice);
 
 }  // namespace ringlet

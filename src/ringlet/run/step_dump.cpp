@@ -3,11 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
 #include <string>
-#include <string_view>
 #include <system_error>
 
-#include "ringlet/output/byte_file.h"
+#include "ringlet/base/whole_file.h"
 #include "ringlet/run/scene_run.h"
 #include "ringlet/scenes/scene_frames.h"
 #include "ringlet/solver/simulation.h"
@@ -16,15 +17,6 @@ namespace ringlet {
 namespace {
 
 namespace fs = std::filesystem;
-
-Result<Simulation> hairAt(const LoadedScene& scene, const SceneFrames& frames,
-                          const DeviceHairChoice& choice) {
-  const ScenePlaces start = frames.placesAt(frames.first());
-  KernelChoice kernel = choice.kernel;
-  kernel.geometry = scene.geometry.get();
-  return Simulation::create(choice.device, scene.groom, scene.material, stepByStep(frames.settings()),
-                            stateOf(start, scene), kernelOf(scene, kernel));
-}
 
 // To the end of that step, and no further.
 Status stepTo(std::uint64_t last, const LoadedScene& scene, const SceneFrames& frames, Simulation& hair) {
@@ -44,23 +36,17 @@ Status stepTo(std::uint64_t last, const LoadedScene& scene, const SceneFrames& f
       Fault::input};
 }
 
-Status writeFile(const fs::path& path, std::string_view bytes) {
-  auto file = ByteFile::create(path.string() + ".partial");
-  if (!file) return file.error();
-  if (Status written = file->writeAt(0, bytes); !written) return written;
-  return file->closeAs(path);
-}
-
 Status writeBuffers(const Simulation& hair, const fs::path& folder) {
   const auto contents = hair.bufferContents();
   if (!contents) return contents.error();
   std::string list;
   for (const BufferContent& buffer : *contents) {
-    const std::string_view bytes(reinterpret_cast<const char*>(buffer.bytes.data()), buffer.bytes.size());
-    if (Status written = writeFile(folder / (buffer.name + ".bin"), bytes); !written) return written;
-    list += fmt::format("{:>12} {}\n", bytes.size(), buffer.name);
+    std::string name = buffer.name + ".bin";
+    std::ranges::replace(name, ' ', '_');
+    if (Status written = writeWholeFile(folder / name, buffer.bytes); !written) return written;
+    list += fmt::format("{:>12} {}\n", buffer.bytes.size(), name);
   }
-  return writeFile(folder / "buffers.txt", list);
+  return writeWholeFile(folder / "buffers.txt", std::as_bytes(std::span(list)));
 }
 
 }  // namespace
@@ -74,7 +60,7 @@ Status dumpStep(const LoadedScene& scene, const DeviceHairChoice& choice, std::u
                     folder.string()),
         Fault::output};
   const SceneFrames frames(scene);
-  auto hair = hairAt(scene, frames, choice);
+  auto hair = makeSimulation({.scene = scene, .frames = frames, .isStepByStep = true}, choice);
   if (!hair) return hair.error();
   if (Status stepped = stepTo(step, scene, frames, *hair); !stepped) return stepped;
   fs::create_directories(folder, code);

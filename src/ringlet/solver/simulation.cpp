@@ -413,7 +413,7 @@ Result<std::vector<BufferContent>> Simulation::bufferContents() const {
   std::map<std::string, const gpu::Buffer*> buffers;
   const auto add = [&](const gpu::BufferTable& table, const std::string& ending) {
     for (const auto& [binding, buffer] : table)
-      buffers.try_emplace(buffer.get().name() + ending, &buffer.get());
+      if (buffer.get().bytes() > 0) buffers.try_emplace(buffer.get().name() + ending, &buffer.get());
   };
   for (std::size_t chunk = 0; chunk < self_->buffers.chunks.size(); ++chunk)
     add(self_->bufferTable(chunk), chunk > 0 ? fmt::format("_{}", chunk) : "");

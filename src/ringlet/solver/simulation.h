@@ -331,9 +331,9 @@ class Simulation {
   /// Time to make the kernels, mostly the driver's compiler [ms]. It is part of create. A device compiles
   /// each kernel once for all its simulations.
   double compileMilliseconds() const;
-  /// What the device holds in each buffer that the hair's kernels see, for those who look for a fault; a
-  /// buffer of the groom's second chunk is called NAME_1, and so on. Layouts: shaders/shared and
-  /// shaders/layout.
+  /// What the device holds in each buffer that the hair's kernels see and that is not empty, for those who
+  /// look for a fault; a buffer of the groom's second chunk is called NAME_1, and so on. Layouts:
+  /// shaders/shared and shaders/layout.
   Result<std::vector<BufferContent>> bufferContents() const;
   /// The recording of the last frame submitted, or of the first one, for tests (Recorder::recorded).
   std::vector<std::string> recordedFrame() const;
