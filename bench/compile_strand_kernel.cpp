@@ -7,7 +7,7 @@
 
 #include "ringlet/gpu/device.h"
 #include "ringlet/gpu/kernel.h"
-#include "ringlet/solver/strand_kernels.h"
+#include "ringlet/solver/strands/strand_kernels.h"
 
 int main(int argc, char** argv) {
   using namespace ringlet;

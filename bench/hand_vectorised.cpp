@@ -70,7 +70,7 @@ void fillLane(StrandsRest& to, std::size_t lane, const layout::StrandRest& stran
   set(to.along, std::max(0.0f, T * (strand.stretchDamping + T * strand.stretchStiffness - bendDamping)));
   set(to.perCoreLength, 1 / strand.restCoreLength);
   set3(to.firstEdge, strand.firstEdge);
-  for (std::size_t k = 0; k < layout::kMaxRootCount; ++k) set3(to.pins[k], strand.pins[k]);
+  for (std::size_t k = 0; k < layout::kMaxRootCount; ++k) set3(to.pins[k], strand.roots[k].pin);
 }
 
 void fillLane(EdgeRest& to, std::size_t lane, const layout::ParticleRest& rest, bool isEdge,

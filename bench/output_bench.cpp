@@ -15,8 +15,8 @@
 #include "bench/clocks.h"
 #include "ringlet/output/cache_reader.h"
 #include "ringlet/output/cache_writer.h"
-#include "ringlet/output/usd_reader.h"
-#include "ringlet/output/usd_writer.h"
+#include "ringlet/output/usd/usd_reader.h"
+#include "ringlet/output/usd/usd_writer.h"
 
 namespace {
 

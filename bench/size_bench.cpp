@@ -10,7 +10,7 @@
 
 #include "bench/clocks.h"
 #include "ringlet/groom/generate.h"
-#include "ringlet/solver/shape_plan.h"
+#include "ringlet/solver/plan/shape_plan.h"
 #include "ringlet/solver/simulation.h"
 
 namespace {

@@ -13,12 +13,12 @@ function(ringlet_add_kernel target stem variant)
   file(MAKE_DIRECTORY ${directory})
   add_custom_command(
     OUTPUT ${header}
-    COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.1 -I${RINGLET_SHADER_DIR} ${ARGN}
+    COMMAND ${GLSLANG_VALIDATOR} --quiet $<$<BOOL:${RINGLET_SHADER_DEBUG}>:-g> --target-env vulkan1.1 -I${RINGLET_SHADER_DIR} ${ARGN}
             --depfile ${header}.d --vn k_${name} -o ${header} ${RINGLET_SHADER_DIR}/kernels/${stem}.comp
     DEPENDS ${RINGLET_SHADER_DIR}/kernels/${stem}.comp
     DEPFILE ${header}.d
     COMMENT "shader ${name}"
-    VERBATIM)
+    VERBATIM COMMAND_EXPAND_LISTS)
   target_sources(${target} PRIVATE ${header})
   set_property(TARGET ${target} APPEND PROPERTY RINGLET_KERNELS ${name})
   set_property(TARGET ${target} APPEND PROPERTY RINGLET_KERNEL_TEXTS "${stem} ${definitions}")

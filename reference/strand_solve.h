@@ -1,6 +1,6 @@
 // The velocity system of one strand, section 5's implicit form, solved exactly and by point
 // iterations. Mirrors shaders/equations/eliminate_edge.glsl, shaders/scan/star_join.glsl (whose own order is
-// that of reference/star_join.h), shaders/integrators/two_way.glsl and shaders/integrators/point_jacobi.glsl:
+// that of reference/star_join.h), shaders/integrators/two_way.glsl and shaders/baselines/point_jacobi.glsl:
 // there by a factorization that stays exact in float, here by the textbook one.
 //
 //     m_i v_i + A_i (v_i - v_{i+1}) + A_{i-1} (v_i - v_{i-1}) = r_i       free i;  no edge beyond the tip

@@ -32,8 +32,8 @@
 #include "bodies/run_pulls.glsl"
 #endif
 #ifdef RINGLET_BASELINES
-#include "integrators/paper.glsl"
-#include "integrators/point_jacobi.glsl"
+#include "baselines/paper.glsl"
+#include "baselines/point_jacobi.glsl"
 #endif
 
 vec3 movedEdge[RUN];  // after the move

@@ -11,24 +11,23 @@ void main() {
   uint i;
   if (!findParticle(i)) return;
   VolumeParticle self = volumeParticle(i);
-  vec4 memory = memoryOf(i);
-  vec4 predicted = predictedOf(i);
-  bool isKnown = predicted.w > 0.0;
+  VolumeState before = volumeState(i);
+  bool isKnown = before.isKnown > 0.0;
   vec3 v = velocityOf(self.particle);
   vec3 x = positionOf(self.particle);
   vec3 place = inHeadFrame(x);
-  vec3 s = isKnown ? fadedDisplacement(memory.xyz, place - placeOf(i).xyz, parameters.kept) : vec3(0);
+  vec3 s = isKnown ? fadedDisplacement(before.displacement, place - before.place, parameters.kept) : vec3(0);
   vec3 last = lastVelocityOf(self.particle);
   vec4 added = addedTo(self.particle);
   // J / m, of a particle that is of the volume and does not follow the head.
   bool isFree = self.inverseMassUnit * self.mass > 0.0;
   vec3 given = isFree ? (added.xyz - added.w * last) / (self.inverseMassUnit * self.mass) : vec3(0);
-  vec3 change = isKnown ? guessedChange(parameters.warmth, gain(), last - predicted.xyz, given) : vec3(0);
+  vec3 change = isKnown ? guessedChange(parameters.warmth, gain(), last - before.predicted, given) : vec3(0);
   // Of a strand, a line, cells n times as large hold n times the mass in n^3 times the room.
   float coarser = cell > parameters.cell ? parameters.cell / cell : 1.0;
-  float mass = self.mass * othersShare(coarser * coarser * self.ownDensity, memory.w);
+  float mass = self.mass * othersShare(coarser * coarser * self.ownDensity, before.density);
   vec4 rate = rateFrom(mass, v + change, x, s, seen);
-  states[i] = VolumeState(vec4(s, memory.w), vec4(place, mass), vec4(v, 1));
+  states[i] = VolumeState(s, before.density, place, mass, v, 1);
   if (parameters.sorts != 0) {
     brought[i] = rate;
     if (self.mass > 0.0) reachTo(place);  // what was cut off has none: it is of the volume no more

@@ -10,5 +10,5 @@ void main() {
   if (!findParticle(i)) return;
   uint particle = volumeParticle(i).particle;
   parcels[locatedAt(i).w].rate =
-      rateFrom(placeOf(i).w, velocityOf(particle), positionOf(particle), memoryOf(i).xyz, seen);
+      rateFrom(countedMassOf(i), velocityOf(particle), positionOf(particle), displacementOf(i), seen);
 }

@@ -7,7 +7,7 @@
 void main() {
   uint i;
   if (!findParticle(i)) return;
-  uint cell = cellIndex(cellInBox(placeInCells(placeOf(i).xyz)));
+  uint cell = cellIndex(cellInBox(placeInCells(placeOf(i))));
   cells[cellOf(i)] = cell;
   cells[cellRank(i)] = atomicAdd(cells[cellCount(cell)], 1);
 }

@@ -6,7 +6,7 @@
 #include "shared/volume_nodes.glsl"
 
 void take(VolumeParcel parcel, float weight) {
-  int term = int(roundEven(weight * parcel.place.w));
+  int term = int(roundEven(weight * parcel.mass));
   high.x += term >> 16;
   low.x += term & 0xffff;
 }

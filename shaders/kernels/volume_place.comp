@@ -8,7 +8,7 @@ void main() {
   uint i;
   if (!findParticle(i)) return;
   uint place = startOf(cellNumber(cellOf(i))) + cellNumber(cellRank(i));
-  vec3 inCells = placeInCells(placeOf(i).xyz);
-  parcels[place] = VolumeParcel(broughtBy(i), vec4(inCells, parameters.unitsPerMass * volumeParticle(i).mass));
+  vec3 inCells = placeInCells(placeOf(i));
+  parcels[place] = VolumeParcel(broughtBy(i), inCells, parameters.unitsPerMass * volumeParticle(i).mass);
   located[i] = uvec4(floatBitsToUint(inCells), place);
 }

@@ -9,8 +9,8 @@ void main() {
   uint i;
   if (!findParticle(i)) return;
   VolumeParticle self = volumeParticle(i);
-  vec3 s = memoryOf(i).xyz;
-  float mass = placeOf(i).w;
+  vec3 s = displacementOf(i);
+  float mass = countedMassOf(i);
   float g = mass * gain();
   vec3 inCells = uintBitsToFloat(locatedAt(i).xyz);
   uvec3 cell = cellInBox(inCells);
@@ -19,7 +19,7 @@ void main() {
     uvec3 node = cornerOf(cell, corner);
     mean += nodeWeight(inCells - vec3(node)) * nodeAt(cellIndex(node));
   }
-  states[i].memory = vec4(s, mean.w);
+  states[i].density = mean.w;
 
   vec3 given = mass * (mean.xyz - parameters.stiffness * parameters.seconds * s);
   vec3 momentum = inWorld(given) + g * carriedVelocity(positionOf(self.particle));

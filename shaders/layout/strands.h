@@ -104,6 +104,12 @@ struct ParticleRest {
   float bendFactor;      // of the bend stiffness profile, root to tip; 1 where there is none
 };
 
+// A root: a particle that the head carries.
+struct RootRest {
+  vec3 pin;     // its rest position [m]
+  float shift;  // of the strand beside the head, along axis k of its root k [m]
+};
+
 // Constant per strand. Stiffnesses K and dampings C [N and N s per mass unit]: divided by the edge's length they are
 // the edge's own. For `paper`, k and c of every edge, as they are.
 struct StrandRest {
@@ -122,8 +128,7 @@ struct StrandRest {
                          // digits
   vec3 firstEdge;        // e_0 at rest [m]
   float massUnit;        // [kg]
-  vec4 pins[kMaxRootCount];  // xyz: rest positions of the first particles, which the head carries [m]; the three w: the
-                             // strand's shift beside the head, x, y and z [m]
+  RootRest roots[kMaxRootCount];  // its first particles
 };
 
 // What the numbers did, per strand; the first three and the last since the simulation began.

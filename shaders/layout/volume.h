@@ -51,9 +51,12 @@ struct VolumeParticle {
 
 // What it remembers from step to step.
 struct VolumeState {
-  vec4 memory;     // xyz: fading displacement s, in the head's frame [m]; w: density about it [kg/m^3]
-  vec4 place;      // xyz: in the head's frame at the step's start [m]; w: what of its mass counts in the step, m o [kg]
-  vec4 predicted;  // xyz: v^0 [m/s]; w: 1 where all this is known, 0 where the hair was just put there
+  vec3 displacement;  // fading, s, in the head's frame [m]
+  float density;      // about it [kg/m^3]
+  vec3 place;         // in the head's frame at the step's start [m]
+  float countedMass;  // what of its mass counts in the step, m o [kg]
+  vec3 predicted;     // v^0 [m/s]
+  float isKnown;      // 1 where all this is known, 0 where the hair was just put there
 };
 
 // What it brings to the grid in an iteration. Sums at nodes are of integers, and so do not depend on the order of their
@@ -62,7 +65,8 @@ struct VolumeState {
 RINGLET_CONSTANT uint kVolumeUnits = 1u << 30;
 struct VolumeParcel {
   vec4 rate;   // xyz: g a, of unit unitsPerGain / mostRate; w: g, of unit unitsPerGain (VolumeParameters)
-  vec4 place;  // xyz: in cells, from the box's first node; w: mass, of unit unitsPerMass
+  vec3 place;  // in cells, from the box's first node
+  float mass;  // of unit unitsPerMass
 };
 
 // The box of cells about all such particles, and what kernels tell each other.

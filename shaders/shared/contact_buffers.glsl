@@ -48,7 +48,7 @@ uvec4 neighbourRecord(uint i) { return kTexels ? recordAt(neighbourTexels, i) : 
 /// Strands of one group do not meet pair by pair (rest/volume_strands.h).
 uint groupOf(uint strand) { return kInGroups ? neighbourRecord(strand).z : strand; }
 /// Strands that another device steps are found as neighbours, but have no lists and no contacts here
-/// (solver/divided_hair.h).
+/// (solver/divided/divided_hair.h).
 bool isElsewhere(uint strand) { return kDivided && neighbourRecord(strand).w != 0; }
 
 // Accessors of records, as these were when the dispatch began.
@@ -120,8 +120,8 @@ uint sampledContact(uint k) {
   return c < parameters.contactCount ? c : kNoContact;
 }
 
-// The parts of the grid's buffer, one after another; solver/contact_stage.cpp computes its size. The contact particles
-// of bucket b are the entries [start of b, start of b + 1).
+// The parts of the grid's buffer, one after another; solver/contacts/contact_stage.cpp computes its size. The contact
+// particles of bucket b are the entries [start of b, start of b + 1).
 uint gridCount(uint bucket) { return bucket; }  // contact particles in a bucket; 0 outside a rebuild
 // Start of a bucket within its block; one entry more than there are buckets.
 uint gridStart(uint bucket) { return parameters.bucketCount + bucket; }

@@ -14,7 +14,7 @@ vec3 v;
 bool isSought(vec3 otherPosition, vec3 otherVelocity, uint otherParticle, float r0);
 void take(ContactRest other, float R, float r0);
 
-// Looks a strand up in the table that solver/neighbour_table.h fills. own: record of this invocation's strand.
+// Looks a strand up in the table that solver/contacts/neighbour_table.h fills. own: record of this invocation's strand.
 bool mayTouch(uvec4 own, uint strand) {
   uint bucket = strand * 2654435761u >> 16;
   uint tried = 0;

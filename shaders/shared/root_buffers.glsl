@@ -51,11 +51,11 @@ vec3 turningVelocity(uint step, vec3 x) { return displacement(turnTo(step + 1), 
 vec3 turningVelocityBefore(uint step, vec3 x) { return -displacement(conjugate(turnTo(step)), x) / stepSeconds(); }
 
 // Place of pinned particle k of the strand: the carried one and the strand's shift.
-vec3 rootShift() { return vec3(strand.pins[0].w, strand.pins[1].w, strand.pins[2].w); }
+vec3 rootShift() { return vec3(strand.roots[0].shift, strand.roots[1].shift, strand.roots[2].shift); }
 float shiftedShare(uint step) { return stepPose(step).shiftedShare; }
 // Relative to the carried origin of the groom.
 vec3 pinArm(uint pose, uint k) {
-  return rotate(rotationAt(pose), strand.pins[k].xyz + shiftedShare(pose) * rootShift());
+  return rotate(rotationAt(pose), strand.roots[k].pin + shiftedShare(pose) * rootShift());
 }
 vec3 pinAt(uint pose, uint k) {
   if (!kMovingRoots) return pinArm(pose, k);

@@ -128,10 +128,13 @@ StrandRest strandRest(uint s) {
   vec4 b = vectorAt(strandTexels, 7 * s + 1);
   vec4 c = vectorAt(strandTexels, 7 * s + 2);
   vec4 d = vectorAt(strandTexels, 7 * s + 3);
-  vec4 pins[kMaxRootCount];
-  [[unroll]] for (uint k = 0; k < kMaxRootCount; ++k) pins[k] = vectorAt(strandTexels, 7 * s + 4 + k);
+  RootRest roots[kMaxRootCount];
+  [[unroll]] for (uint k = 0; k < kMaxRootCount; ++k) {
+    vec4 root = vectorAt(strandTexels, 7 * s + 4 + k);
+    roots[k] = RootRest(root.xyz, root.w);
+  }
   return StrandRest(a.x, a.y, uintBitsToFloat(a.z), uintBitsToFloat(a.w), b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w,
-                    d.xyz, d.w, pins);
+                    d.xyz, d.w, roots);
 }
 
 #ifdef RINGLET_CONTACTS

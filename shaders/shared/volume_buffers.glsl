@@ -68,11 +68,17 @@ VolumeParticle volumeParticle(uint i) {
 }
 VolumeParcel parcelAt(uint place) {
   if (!kTexels) return parcels[place];
-  return VolumeParcel(vectorAt(parcelTexels, 2 * place), vectorAt(parcelTexels, 2 * place + 1));
+  vec4 b = vectorAt(parcelTexels, 2 * place + 1);
+  return VolumeParcel(vectorAt(parcelTexels, 2 * place), b.xyz, b.w);
 }
-vec4 memoryOf(uint i) { return kTexels ? vectorAt(stateTexels, 3 * i) : states[i].memory; }
-vec4 placeOf(uint i) { return kTexels ? vectorAt(stateTexels, 3 * i + 1) : states[i].place; }
-vec4 predictedOf(uint i) { return kTexels ? vectorAt(stateTexels, 3 * i + 2) : states[i].predicted; }
+VolumeState volumeState(uint i) {
+  if (!kTexels) return states[i];
+  vec4 a = vectorAt(stateTexels, 3 * i), b = vectorAt(stateTexels, 3 * i + 1), c = vectorAt(stateTexels, 3 * i + 2);
+  return VolumeState(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w);
+}
+vec3 displacementOf(uint i) { return kTexels ? vectorAt(stateTexels, 3 * i).xyz : states[i].displacement; }
+vec3 placeOf(uint i) { return kTexels ? vectorAt(stateTexels, 3 * i + 1).xyz : states[i].place; }
+float countedMassOf(uint i) { return kTexels ? vectorAt(stateTexels, 3 * i + 1).w : states[i].countedMass; }
 
 // Between world axes and the head's frame at the step's start; pose 0 is the frame's start.
 vec3 inHeadFrame(vec3 x) { return rotate(conjugate(poses[parameters.step].rotation), x); }

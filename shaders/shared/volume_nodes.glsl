@@ -40,7 +40,7 @@ void sumRanges(uint node, uint first, uint end) {
       VolumeParcel some[kAtOnce];
       for (uint j = 0; j < kAtOnce; ++j) some[j] = parcelAt(min(place + j, end - 1));
       for (uint j = 0; j < kAtOnce; ++j)
-        take(some[j], place + j < end ? nodeWeight(some[j].place.xyz - vec3(at)) : 0.0);
+        take(some[j], place + j < end ? nodeWeight(some[j].place - vec3(at)) : 0.0);
       ++made;
       place += kAtOnce;
     } while (place < end);

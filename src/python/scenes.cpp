@@ -1,5 +1,6 @@
 // Whole scenes: built-in ones and files, and their runs.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -9,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "python/arrays.h"
 #include "python/grooms.h"
@@ -19,8 +21,8 @@
 #include "python/words.h"
 #include "ringlet/run/scene_run.h"
 #include "ringlet/scenes/builtin_scene.h"
-#include "ringlet/scenes/load_scene.h"
-#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/file/scene_file.h"
+#include "ringlet/scenes/load/load_scene.h"
 
 namespace ringlet::python {
 namespace {
@@ -34,15 +36,46 @@ SceneObject sceneOf(std::string name, std::string summary, LoadedScene loaded, S
 
 SceneReach reachOf(bool isConfined) { return isConfined ? SceneReach::ownFolder : SceneReach::anywhere; }
 
-SceneObject loadSceneFile(const std::filesystem::path& path, bool isConfined) {
+// A value as a scene file has it. A text needs no quotes (SceneChange).
+std::string changeText(const py::handle& value) {
+  if (py::isinstance<py::str>(value)) return value.cast<std::string>();
+  py::detail::make_caster<bool> truth;  // NumPy's too
+  if (truth.load(value, false)) return truth ? "true" : "false";
+  if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
+    std::vector<std::string> texts;
+    for (const py::handle each : value)
+      texts.push_back(py::isinstance<py::str>(each) ? fmt::format("'{}'", changeText(each))
+                                                    : changeText(each));
+    return fmt::format("[{}]", fmt::join(texts, ", "));
+  }
+  if (PyIndex_Check(value.ptr())) return py::str(py::int_(py::reinterpret_borrow<py::object>(value)));
+  if (PyNumber_Check(value.ptr())) return py::repr(py::float_(py::reinterpret_borrow<py::object>(value)));
+  throw py::type_error(fmt::format("a change is a number, a bool, a text or a list of these, got {}",
+                                   std::string(py::repr(value))));
+}
+
+std::vector<SceneChange> changesOf(const py::dict& changed) {
+  std::vector<SceneChange> changes;
+  for (const auto& [key, value] : changed) {
+    if (!py::isinstance<py::str>(key))
+      throw py::type_error(fmt::format("a key of a scene is a text, got {}", std::string(py::repr(key))));
+    changes.push_back({key.cast<std::string>(), changeText(value)});
+  }
+  return changes;
+}
+
+SceneObject loadSceneFile(const std::filesystem::path& path, const py::dict& changed, bool isConfined) {
+  const std::vector<SceneChange> changes = changesOf(changed);
   return withoutGil([&] {
-    const SceneFile file = sceneValueOf(readScene(path, {}, reachOf(isConfined)));
+    const SceneFile file = sceneValueOf(readScene(path, changes, reachOf(isConfined)));
     return sceneOf(path.stem().string(), "", sceneValueOf(loadScene(file)), {file, path, {}});
   });
 }
-SceneObject parseText(const std::string& text, const std::filesystem::path& folder, bool isConfined) {
+SceneObject parseText(const std::string& text, const std::filesystem::path& folder, const py::dict& changed,
+                      bool isConfined) {
+  const std::vector<SceneChange> changes = changesOf(changed);
   return withoutGil([&] {
-    const SceneFile file = sceneValueOf(parseScene(text, "the scene", folder, {}, reachOf(isConfined)));
+    const SceneFile file = sceneValueOf(parseScene(text, "the scene", folder, changes, reachOf(isConfined)));
     return sceneOf("text", "", sceneValueOf(loadScene(file)), {file, {}, {}});
   });
 }
@@ -129,12 +162,15 @@ void addScenes(py::module_& module) {
       module, "Scene", "All that a run starts from: groom, material, settings, motion, bodies. Constant.");
   scene
       .def_static(
-          "load", &loadSceneFile, py::arg("path"), py::kw_only(), py::arg("confined").noconvert() = false,
+          "load", &loadSceneFile, py::arg("path"), py::kw_only(), py::arg("changes") = py::dict(),
+          py::arg("confined").noconvert() = false,
           "Reads a scene file (TOML) and all that it names: the groom, a motion by .bvh or glTF, meshes. "
-          "confined: for a file of a stranger's, which may then name files in or below its own folder only. "
+          "changes: {key: value}, set before the file is read, as `ringlet sweep --vary` sets them: "
+          "{'material.dials.hold': 2, 'body.1.radius': 0.1}. confined: for a file of a stranger's, which may then "
+          "name files in or below its own folder only. "
           "ringlet.Error with file and line for what is wrong.")
       .def_static("parse", &parseText, py::arg("text"), py::arg("folder") = "", py::kw_only(),
-                  py::arg("confined").noconvert() = false,
+                  py::arg("changes") = py::dict(), py::arg("confined").noconvert() = false,
                   "The same from text; its paths are relative to folder.")
       .def_static(
           "builtin",

@@ -9,8 +9,8 @@
 #include "python/binding.h"
 #include "python/grooms.h"
 #include "ringlet/output/checkpoint_file.h"
-#include "ringlet/scenes/load_scene.h"
-#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/file/scene_file.h"
+#include "ringlet/scenes/load/load_scene.h"
 
 namespace ringlet::python {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "ringlet/base/vec3.h"
-#include "ringlet/scenes/scene_frames.h"
+#include "ringlet/scenes/frames/scene_frames.h"
 
 namespace ringlet::view {
 

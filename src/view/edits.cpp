@@ -7,9 +7,9 @@
 
 #include "ringlet/base/whole_file.h"
 #include "ringlet/rest/rest_state.h"
-#include "ringlet/scenes/load_scene.h"
-#include "ringlet/scenes/scene_parts.h"
-#include "ringlet/scenes/scene_paths.h"
+#include "ringlet/scenes/load/load_scene.h"
+#include "ringlet/scenes/load/scene_parts.h"
+#include "ringlet/scenes/load/scene_paths.h"
 
 namespace ringlet::view {
 

@@ -12,7 +12,7 @@
 #include "ringlet/rest/material.h"
 #include "ringlet/rest/material_presets.h"
 #include "ringlet/scene/settings.h"
-#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/file/scene_file.h"
 
 namespace ringlet::view {
 

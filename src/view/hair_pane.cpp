@@ -28,12 +28,13 @@ Result<HairPane> HairPane::create(gpu::Device& device, const Groom& groom, const
   self.firstPoint_ = groom.firstPoint;
   for (const Vec3f& p : groom.points) self.rest_.push_back(Vec3d(p) * groom.metresPerUnit);
   self.box_ = boxAbout(self.rest_);
-  if (look.hairs.empty()) {
+  if (!look.follow) {
     auto strands = StrandPoints::create(device, groom.firstPoint);
     if (!strands) return strands.error();
     self.strands_ = std::make_unique<StrandPoints>(std::move(*strands));
   } else {
-    auto follow = FollowStage::create(device, look.guides, look.hairs, look.bodies);
+    auto follow = FollowStage::create(device, look.follow->guides(), look.follow->hairs(), look.bodies,
+                                      look.follow->isOnScalp());
     if (!follow) return follow.error();
     self.follow_ = std::make_unique<FollowStage>(std::move(*follow));
   }
@@ -46,8 +47,9 @@ Result<HairPane> HairPane::create(gpu::Device& device, const Groom& groom, const
   self.renderer_.emplace(std::move(*renderer));
   if (!look.showsStretch) return self;
   std::vector<std::uint32_t> strandOf;
-  for (const FollowHair& hair : look.hairs) strandOf.push_back(hair.guide);
-  for (std::uint32_t s = 0; look.hairs.empty() && s < groom.strandCount(); ++s) strandOf.push_back(s);
+  if (look.follow)
+    for (const FollowHair& hair : look.follow->hairs()) strandOf.push_back(hair.guide);
+  for (std::uint32_t s = 0; !look.follow && s < groom.strandCount(); ++s) strandOf.push_back(s);
   auto stretch = StretchColours::create(device, self.follow_ ? self.follow_->pose() : self.strands_->points(),
                                         self.rest_, self.firstPoint_, strandOf, self.renderer_->drawnHairs());
   if (!stretch) return stretch.error();
@@ -69,14 +71,18 @@ Status HairPane::attach(gpu::Device& device, const Simulation& hair,
 }
 
 Status HairPane::setFrame(const Camera& camera, const HeadPose& head, std::span<const SolidPlace> solids,
-                          std::span<const BodyPose> bodies) {
+                          std::span<const BodyPose> bodies, std::span<const Vec3d> roots,
+                          std::span<const Vec3d> strandRoots) {
   // Hair is relative to the head's origin, so that everything else is too.
   Camera near = camera;
   near.eye -= head.position;
   near.target -= head.position;
   std::vector<SolidPlace> places(solids.begin(), solids.end());
   for (SolidPlace& place : places) place.position -= head.position;
-  if (follow_) follow_->setBodies(bodies, head.position);
+  if (follow_) {
+    follow_->setBodies(bodies, head.position);
+    if (Status set = follow_->setRoots(roots, strandRoots); !set) return set;
+  }
   const Vec3d margin = Vec3d{1, 1, 1} * kMargin;
   return renderer_->setFrame(near, {box_.low - margin, box_.high + margin}, places);
 }

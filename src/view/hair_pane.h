@@ -12,11 +12,12 @@
 #include "ringlet/follow/device_pose.h"
 #include "ringlet/follow/follow_stage.h"
 #include "ringlet/gpu/command_list.h"
+#include "ringlet/pictures/follow_plan.h"
 #include "ringlet/render/hair_renderer.h"
 #include "ringlet/render/strand_points.h"
 #include "ringlet/render/stretch_colours.h"
 #include "ringlet/scene/head_pose.h"
-#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/load/load_scene.h"
 #include "ringlet/solver/simulation.h"
 
 namespace ringlet::view {
@@ -26,9 +27,8 @@ inline constexpr double kMostStrandWidth = 0.0012;
 
 /// What is drawn beside the numbers of a session.
 struct PaneLook {
-  std::vector<GuideRest> guides;  // with hairs that follow them; none: the strands are drawn
-  std::vector<FollowHair> hairs;
-  std::vector<Body> bodies;  // that hairs stay out of
+  std::shared_ptr<const FollowPlan> follow;  // the hairs that follow the strands; none: these are drawn
+  std::vector<Body> bodies;                  // that hairs stay out of
   std::vector<SolidMesh> solids;
   PictureSize size;
   bool showsStretch = false;  // in place of the look's colour
@@ -46,9 +46,11 @@ class HairPane {
   /// points.
   Status attach(gpu::Device& device, const Simulation& hair, std::span<const std::uint32_t> cutBeyond = {});
 
-  /// The next picture. Places of solids, one pose a body, and the camera are the world's.
+  /// The next picture. Places of solids, one pose a body, and the camera are the world's, and so are roots:
+  /// of hairs on a scalp (FollowPlan::rootsAt), and of strands; else none.
   Status setFrame(const Camera& camera, const HeadPose& head, std::span<const SolidPlace> solids,
-                  std::span<const BodyPose> bodies);
+                  std::span<const BodyPose> bodies, std::span<const Vec3d> roots = {},
+                  std::span<const Vec3d> strandRoots = {});
   void record(gpu::CommandList& list, Quatd head) const;
   /// Of what was recorded and is done: the box about the hair is known for the next picture.
   void finish();

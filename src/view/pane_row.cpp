@@ -27,8 +27,8 @@ Status PaneRow::prepare(gpu::Device& device, const Session& session, const PaneL
   each.size.height = size.height;
   each.showsStretch = shown.stretch;
   const Groom& groom = session.scene().groom;
-  if (shown.guides && !each.hairs.empty()) {
-    each.hairs.clear();
+  if (shown.guides && each.follow) {
+    each.follow.reset();
     each.width = std::min(widthOfHairs(static_cast<double>(groom.strandCount())), kMostStrandWidth);
   }
   if (!shown.bodies) each.solids.clear();
@@ -51,9 +51,10 @@ Status PaneRow::attach(gpu::Device& device, const Session& session) {
 }
 
 Status PaneRow::setFrame(const Camera& camera, const HeadPose& head, std::span<const SolidPlace> solids,
-                         std::span<const BodyPose> bodies) {
+                         std::span<const BodyPose> bodies, std::span<const Vec3d> roots,
+                         std::span<const Vec3d> strandRoots) {
   for (auto& pane : panes_) {
-    if (Status set = pane->setFrame(camera, head, solids, bodies); !set) return set;
+    if (Status set = pane->setFrame(camera, head, solids, bodies, roots, strandRoots); !set) return set;
   }
   return {};
 }

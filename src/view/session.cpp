@@ -57,6 +57,7 @@ Status Session::preRoll() {
   const ScenePlaces now = frames_.front().placesAt(frame_);
   head_ = now.head;
   bodies_ = now.bodies;
+  roots_ = now.roots;
   return {};
 }
 
@@ -82,6 +83,17 @@ Result<HairNumbers> Session::numbersNow(const SceneFile& edited, std::optional<S
   now->settings.contacts.takeLists(scene_->settings.contacts);
   keys = std::move(*made);
   return HairNumbers{now->settings, std::move(now->material)};
+}
+
+std::vector<Vec3d> Session::strandRoots() const {
+  const Groom& groom = scene_->groom;
+  std::vector<Vec3d> places;
+  for (std::size_t s = 0; s < roots_.size(); ++s) {
+    const Vec3d rest = Vec3d(groom.strand(s).front()) * groom.metresPerUnit;
+    places.push_back(head_.position +
+                     rotate(head_.rotation, roots_[s].position + rotate(roots_[s].rotation, rest)));
+  }
+  return places;
 }
 
 Result<bool> Session::setEdits(const Edits& edits) {
@@ -141,6 +153,7 @@ Status Session::submitFrame() {
     if (k > 0) continue;
     head_ = frame->heads.back();
     bodies_.assign(frame->bodiesAtEnd().begin(), frame->bodiesAtEnd().end());
+    roots_.assign(frame->rootsAtEnd().begin(), frame->rootsAtEnd().end());
   }
   ++frame_;
   return {};

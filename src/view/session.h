@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "ringlet/base/result.h"
-#include "ringlet/scenes/load_scene.h"
-#include "ringlet/scenes/scene_file.h"
-#include "ringlet/scenes/scene_frames.h"
+#include "ringlet/scenes/file/scene_file.h"
+#include "ringlet/scenes/frames/scene_frames.h"
+#include "ringlet/scenes/load/load_scene.h"
 #include "ringlet/solver/compute_device.h"
 #include "view/dragged_pose.h"
 #include "view/edits.h"
@@ -44,6 +44,8 @@ class Session {
   double framesPerSecond() const { return hairs_.front().numbers().settings.framesPerSecond; }
   const HeadPose& head() const { return head_; }
   const std::vector<BodyPose>& bodies() const { return bodies_; }
+  /// Where a scalp has the strands' roots now, in the world [m]; none where the head carries them.
+  std::vector<Vec3d> strandRoots() const;
   const LoadedScene& scene() const { return *scene_; }
   /// How often hair was cut so far; and the particles, groom order, from which no edge goes on.
   std::size_t cutCount() const { return frames_.front().cutsBefore(frame_).size(); }
@@ -67,6 +69,7 @@ class Session {
   int frame_ = 0;                    // that comes next; those of the pre-roll are before 0
   HeadPose head_;
   std::vector<BodyPose> bodies_;
+  std::vector<BodyPose> roots_;  // seen from the head
 };
 
 }  // namespace ringlet::view

@@ -13,8 +13,8 @@
 #include "ringlet/rest/live_material.h"
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/scene/settings_fields.h"
-#include "ringlet/scenes/scene_fields.h"
-#include "ringlet/scenes/scene_parts.h"
+#include "ringlet/scenes/file/scene_fields.h"
+#include "ringlet/scenes/load/scene_parts.h"
 
 namespace ringlet::view {
 namespace {

@@ -1,5 +1,5 @@
 // Sliders: every number of a scene that the window shows, made of the tables that scene files and options are
-// made of (scene/settings_fields.h, scenes/scene_fields.h, rest/material_parameters.h).
+// made of (scene/settings_fields.h, scenes/file/scene_fields.h, rest/material_parameters.h).
 #pragma once
 
 #include <functional>

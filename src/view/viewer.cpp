@@ -149,11 +149,11 @@ Facts Viewer::facts() const {
               .frame = session_->frame(),
               .seconds = session_->seconds(),
               .isPlaying = session_->isPlaying,
-              .canShowGuides = !plan_.look.hairs.empty(),
+              .canShowGuides = plan_.look.follow != nullptr,
               .hair = fmt::format("{} strands, {} particles", groom.strandCount(), groom.points.size()),
               .message = message_,
               .stages = times_.smoothed()};
-  if (!plan_.look.hairs.empty()) facts.hair += fmt::format(", {} hairs", plan_.look.hairs.size());
+  if (const auto& follow = plan_.look.follow) facts.hair += fmt::format(", {} hairs", follow->hairs().size());
   return facts;
 }
 
@@ -242,7 +242,11 @@ Status Viewer::step() {
 }
 
 Status Viewer::drawPanes() {
-  if (Status set = panes_.setFrame(camera_->camera(), session_->head(), places(), session_->bodies()); !set)
+  std::vector<Vec3d> roots;  // of hairs on a scalp
+  if (plan_.look.follow) roots = plan_.look.follow->rootsAt(session_->seconds(), session_->head());
+  if (Status set = panes_.setFrame(camera_->camera(), session_->head(), places(), session_->bodies(), roots,
+                                   session_->strandRoots());
+      !set)
     return set;
   if (Status begun = recorder_->begin(); !begun) return begun;
   panes_.record(*recorder_, session_->head().rotation);

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "ringlet/base/result.h"
-#include "ringlet/scenes/load_scene.h"
-#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/file/scene_file.h"
+#include "ringlet/scenes/load/load_scene.h"
 #include "ringlet/solver/compute_device.h"
 #include "view/hair_pane.h"
 

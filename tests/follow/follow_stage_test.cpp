@@ -112,13 +112,18 @@ bool isCutAfter(const Plan& plan, const std::vector<std::uint32_t>& cutBeyond, s
 // The points that the device finds, in the order of hairs.
 std::vector<Vec3d> followOn(gpu::Device& device, const Plan& plan, const std::vector<Strand>& pose,
                             Quatd head, const Met& met = {}, const std::vector<Vec3d>& roots = {},
-                            const std::vector<std::uint32_t>& cutBeyond = {}) {
+                            const std::vector<std::uint32_t>& cutBeyond = {}, bool rootsLast = false) {
   auto stage = FollowStage::create(device, plan.guides, plan.hairs, met.bodies, !roots.empty());
   EXPECT_TRUE(stage) << stage.error().message;
   stage->setBodies(met.poses);
   std::vector<Vec3d> positions;
   for (const Strand& strand : pose) positions.insert(positions.end(), strand.begin(), strand.end());
-  EXPECT_TRUE(stage->setPose(positions, roots, cutBeyond));
+  EXPECT_TRUE(stage->setPose(positions, rootsLast ? std::vector<Vec3d>(roots.size()) : roots, cutBeyond));
+  std::vector<Vec3d> guideRoots;
+  for (const Strand& strand : pose) guideRoots.push_back(strand.front());
+  if (rootsLast) {
+    EXPECT_TRUE(stage->setRoots(roots, guideRoots));
+  }
   auto recorder = gpu::Recorder::create(device, "follow");
   EXPECT_TRUE(recorder->begin());
   stage->record(*recorder, head);
@@ -339,6 +344,7 @@ TEST_F(FollowStageTest, RootsOnAScalpAreWhereItHasThem) {
       EXPECT_LT(largestDifference(plan, pose, kTurned, found, met, roots), parity::kFollowMetres);
       EXPECT_GT(countOther(found, followOn(gpu(), plan, pose, kTurned, met)), found.size() / 20);
       EXPECT_EQ(followOn(**few, plan, pose, kTurned, met, roots), found) << "storage in place of texels";
+      EXPECT_EQ(followOn(gpu(), plan, pose, kTurned, met, roots, {}, true), found) << "roots by themselves";
       if (!met.bodies.empty()) continue;
       double farthest = 0;
       for (std::size_t h = 0; h < roots.size(); ++h)

@@ -1,5 +1,5 @@
 // Scene files: what is read is written, and what is written is read as the same.
-#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/file/scene_file.h"
 
 #include "tests/fuzz/fuzz_target.h"
 

@@ -5,9 +5,9 @@
 #include "program/simulate/reference_hair.h"
 #include "ringlet/output/finite_points.h"
 #include "ringlet/rest/rest_state.h"
-#include "ringlet/scenes/load_scene.h"
-#include "ringlet/scenes/scene_frames.h"
-#include "ringlet/scenes/scene_parts.h"
+#include "ringlet/scenes/frames/scene_frames.h"
+#include "ringlet/scenes/load/load_scene.h"
+#include "ringlet/scenes/load/scene_parts.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace ringlet::fuzz {

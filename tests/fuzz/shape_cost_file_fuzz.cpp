@@ -1,5 +1,5 @@
 // Measured costs of strand shapes.
-#include "ringlet/solver/shape_cost_file.h"
+#include "ringlet/solver/plan/shape_cost_file.h"
 
 #include "tests/fuzz/memory_file.h"
 

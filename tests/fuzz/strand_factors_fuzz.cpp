@@ -1,5 +1,5 @@
 // Files of factors by strand, of a scene's maps: strands rise, and factors are in their range.
-#include "ringlet/scenes/scene_maps.h"
+#include "ringlet/scenes/load/scene_maps.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace ringlet::fuzz {

@@ -1,5 +1,5 @@
 // Animations as USD text.
-#include "ringlet/output/usd_reader.h"
+#include "ringlet/output/usd/usd_reader.h"
 
 #include <numeric>
 

@@ -1,5 +1,5 @@
 // Animations as USD crates.
-#include "ringlet/output/usdc_reader.h"
+#include "ringlet/output/usd/usdc_reader.h"
 
 #include "tests/fuzz/memory_file.h"
 

@@ -1,5 +1,5 @@
 // .usdz files: what is read is a usable groom.
-#include "ringlet/groom/usd_file.h"
+#include "ringlet/groom/usd/usd_file.h"
 
 #include "tests/fuzz/fuzz_target.h"
 

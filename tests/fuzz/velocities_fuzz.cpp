@@ -1,7 +1,7 @@
 // Grids of velocities as NumPy writes them: as many as there are nodes, and finite.
 #include <cmath>
 
-#include "ringlet/scenes/velocity_file.h"
+#include "ringlet/scenes/frames/velocity_file.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace ringlet::fuzz {

@@ -11,7 +11,7 @@
 #include "ringlet/groom/ply_file.h"
 #include "ringlet/groom/strand_list_file.h"
 #include "ringlet/groom/tfx_file.h"
-#include "ringlet/groom/usd_file.h"
+#include "ringlet/groom/usd/usd_file.h"
 #include "tests/groom/crate_bytes.h"
 #include "tests/groom/groom_samples.h"
 #include "tests/groom/ply_samples.h"

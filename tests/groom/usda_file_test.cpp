@@ -1,6 +1,6 @@
-// groom/usda_file.h and usd_groom.h: USD text as people and programs write it, what is left out, what is
+// groom/usd/usda_file.h and usd_groom.h: USD text as people and programs write it, what is left out, what is
 // refused and by which name.
-#include "ringlet/groom/usda_file.h"
+#include "ringlet/groom/usd/usda_file.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "ringlet/groom/groom_file.h"
-#include "ringlet/groom/usd_file.h"
-#include "ringlet/output/usd_writer.h"
+#include "ringlet/groom/usd/usd_file.h"
+#include "ringlet/output/usd/usd_writer.h"
 #include "tests/groom/groom_samples.h"
 #include "tests/groom/usda_samples.h"
 #include "tests/support/memory_limit.h"

@@ -1,5 +1,5 @@
 // What the crate's writer packs, its reader unpacks: bytes and integers of every length and size.
-#include "ringlet/groom/usdc_codec.h"
+#include "ringlet/groom/usd/usdc_codec.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
-// groom/usdz_file.h: the first layer of a package, and packages that say two things.
-#include "ringlet/groom/usdz_file.h"
+// groom/usd/usdz_file.h: the first layer of a package, and packages that say two things.
+#include "ringlet/groom/usd/usdz_file.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
 #include "ringlet/groom/groom_file.h"
-#include "ringlet/groom/usd_file.h"
+#include "ringlet/groom/usd/usd_file.h"
 #include "tests/groom/crate_bytes.h"
 #include "tests/groom/groom_samples.h"
 #include "tests/groom/usda_samples.h"

@@ -13,8 +13,8 @@
 #include "layout/volume.h"
 #include "ringlet/gpu/device_buffers.h"
 #include "ringlet/gpu/recorder.h"
-#include "ringlet/solver/contact_kernels.h"
-#include "ringlet/solver/volume_kernels.h"
+#include "ringlet/solver/contacts/contact_kernels.h"
+#include "ringlet/solver/contacts/volume_kernels.h"
 #include "tests/support/gpu_test.h"
 
 namespace ringlet::test::bucket_starts_test {

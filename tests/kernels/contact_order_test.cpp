@@ -11,7 +11,7 @@
 #include "layout/contacts.h"
 #include "ringlet/gpu/device_buffers.h"
 #include "ringlet/gpu/recorder.h"
-#include "ringlet/solver/contact_kernels.h"
+#include "ringlet/solver/contacts/contact_kernels.h"
 #include "tests/support/gpu_test.h"
 
 namespace ringlet::test::contact_order_test {

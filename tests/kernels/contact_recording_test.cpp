@@ -1,6 +1,6 @@
 // How a frame with contacts is recorded. Contact kernels share buffers that several of them write, so that
 // each must see what the one before it wrote; the validation layer does not notice a barrier left out there,
-// and lavapipe runs dispatches in order. Mirrors solver/contact_stage.h.
+// and lavapipe runs dispatches in order. Mirrors solver/contacts/contact_stage.h.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

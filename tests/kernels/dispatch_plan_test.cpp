@@ -1,6 +1,6 @@
 // How a groom is cut into dispatches: every strand and step exactly once, within the device's limits. No
 // device needed.
-#include "ringlet/solver/dispatch_plan.h"
+#include "ringlet/solver/plan/dispatch_plan.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // KernelChoice::link: hair in contact whose strands several devices step has the bits that it has on one.
-#include "ringlet/solver/divided_hair.h"
+#include "ringlet/solver/divided/divided_hair.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 
 #include "ringlet/groom/generate.h"
 #include "ringlet/rest/rest_part.h"
-#include "ringlet/solver/sampled_contacts.h"
+#include "ringlet/solver/contacts/sampled_contacts.h"
 #include "ringlet/solver/shared_link.h"
 #include "tests/kernels/sample_hairs.h"
 #include "tests/support/gpu_test.h"

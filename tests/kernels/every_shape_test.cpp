@@ -13,7 +13,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "ringlet/solver/shape_plan.h"
+#include "ringlet/solver/plan/shape_plan.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/parity.h"
 #include "tests/support/tolerances.h"

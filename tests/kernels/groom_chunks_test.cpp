@@ -1,6 +1,6 @@
 // How a groom is cut into chunks, without a device; and on one, that it does not show: the bits of a groom in
 // chunks are those of the same groom in one, and of a strand by itself.
-#include "ringlet/solver/groom_chunks.h"
+#include "ringlet/solver/plan/groom_chunks.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "ringlet/gpu/recorder.h"
+#include "ringlet/solver/plan/submission_pace.h"
 #include "ringlet/solver/simulation.h"
-#include "ringlet/solver/submission_pace.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/kernel_spy.h"
 #include "tests/support/parity.h"

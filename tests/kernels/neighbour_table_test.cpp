@@ -1,5 +1,5 @@
-// solver/neighbour_table.h: what contact_query.comp looks up in it is what the graph allows.
-#include "ringlet/solver/neighbour_table.h"
+// solver/contacts/neighbour_table.h: what contact_query.comp looks up in it is what the graph allows.
+#include "ringlet/solver/contacts/neighbour_table.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Measured costs of shapes: what is read is what was written, and a spoilt file says where it is.
-#include "ringlet/solver/shape_cost_file.h"
+#include "ringlet/solver/plan/shape_cost_file.h"
 
 #include <gtest/gtest.h>
 

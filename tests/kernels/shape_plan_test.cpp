@@ -1,6 +1,6 @@
 // Which strands run in which shape: that they fit, that it costs little more than it must, with few kernels.
 // No device needed.
-#include "ringlet/solver/shape_plan.h"
+#include "ringlet/solver/plan/shape_plan.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <set>
 #include <tuple>
 
-#include "ringlet/solver/strand_kernels.h"
+#include "ringlet/solver/strands/strand_kernels.h"
 
 namespace ringlet::test::shape_plan_test {
 namespace {

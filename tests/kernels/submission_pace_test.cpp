@@ -1,12 +1,12 @@
 // How frames are cut into submissions by the time of the frame before; and that it changes no bit.
-#include "ringlet/solver/submission_pace.h"
+#include "ringlet/solver/plan/submission_pace.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <vector>
 
-#include "ringlet/solver/dispatch_plan.h"
+#include "ringlet/solver/plan/dispatch_plan.h"
 #include "ringlet/solver/simulation.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/parity.h"

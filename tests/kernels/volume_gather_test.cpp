@@ -14,7 +14,7 @@
 #include "layout/volume.h"
 #include "ringlet/gpu/device_buffers.h"
 #include "ringlet/gpu/recorder.h"
-#include "ringlet/solver/volume_kernels.h"
+#include "ringlet/solver/contacts/volume_kernels.h"
 #include "tests/support/gpu_test.h"
 
 namespace ringlet::test::volume_gather_test {
@@ -39,7 +39,7 @@ std::vector<InCell> randomParcels(std::uint32_t orderSeed) {
     const float units = k % 7 == 0 ? float(layout::kVolumeUnits) : 1e6f * std::exp(6 * share(random));
     const auto cell = (std::uint32_t(z) * kSide + std::uint32_t(y)) * kSide + std::uint32_t(x);
     const layout::vec4 rate{units * share(random), units * share(random), units * share(random), units};
-    all.push_back({cell, {rate, {x, y, z, units}}});
+    all.push_back({cell, {rate, {x, y, z}, units}});
   }
   std::shuffle(all.begin(), all.end(), order);
   std::ranges::stable_sort(all, {}, &InCell::cell);
@@ -135,7 +135,7 @@ TEST_F(VolumeGather, IsTheMeanInDouble) {
           hat(parcel.place.x - at[0]) * hat(parcel.place.y - at[1]) * hat(parcel.place.z - at[2]);
       sum[0] += weight * parcel.rate.x, sum[1] += weight * parcel.rate.y;
       sum[2] += weight * parcel.rate.z, sum[3] += weight * parcel.rate.w;
-      mass += weight * parcel.place.w;
+      mass += weight * parcel.mass;
     }
     EXPECT_NEAR(found[n].x, kMostRate * sum[0] / sum[3], 1e-5);
     EXPECT_NEAR(found[n].y, kMostRate * sum[1] / sum[3], 1e-5);

@@ -15,15 +15,15 @@
 #include <string>
 #include <string_view>
 
-#include "ringlet/groom/usd_layer.h"
-#include "ringlet/groom/usdc_file.h"
-#include "ringlet/groom/usdc_format.h"
+#include "ringlet/groom/usd/usd_layer.h"
+#include "ringlet/groom/usd/usdc_file.h"
+#include "ringlet/groom/usd/usdc_format.h"
 #include "ringlet/output/cache_reader.h"
 #include "ringlet/output/cache_writer.h"
-#include "ringlet/output/usd_reader.h"
-#include "ringlet/output/usd_writer.h"
-#include "ringlet/output/usdc_reader.h"
-#include "ringlet/output/usdc_writer.h"
+#include "ringlet/output/usd/usd_reader.h"
+#include "ringlet/output/usd/usd_writer.h"
+#include "ringlet/output/usd/usdc_reader.h"
+#include "ringlet/output/usd/usdc_writer.h"
 #include "tests/support/strict_usd.h"
 #include "tests/support/test_support.h"
 

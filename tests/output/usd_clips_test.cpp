@@ -1,5 +1,5 @@
 // Value clips: the parts of an animation, read one by one; what a killed run leaves; going on with it.
-#include "ringlet/output/usd_clips_writer.h"
+#include "ringlet/output/usd/usd_clips_writer.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "ringlet/groom/usda_file.h"
-#include "ringlet/groom/usdc_file.h"
-#include "ringlet/output/usdc_reader.h"
+#include "ringlet/groom/usd/usda_file.h"
+#include "ringlet/groom/usd/usdc_file.h"
+#include "ringlet/output/usd/usdc_reader.h"
 #include "tests/support/test_support.h"
 
 namespace ringlet::usd_clips_test {

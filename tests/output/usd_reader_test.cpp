@@ -1,5 +1,6 @@
-// output/usd_reader.h: reads what UsdWriter writes, bit for bit, finished or not, and refuses anything else.
-#include "ringlet/output/usd_reader.h"
+// output/usd/usd_reader.h: reads what UsdWriter writes, bit for bit, finished or not, and refuses anything
+// else.
+#include "ringlet/output/usd/usd_reader.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +8,7 @@
 #include <fstream>
 #include <random>
 
-#include "ringlet/output/usd_writer.h"
+#include "ringlet/output/usd/usd_writer.h"
 #include "tests/support/memory_limit.h"
 #include "tests/support/test_support.h"
 

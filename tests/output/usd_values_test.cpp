@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "ringlet/groom/usd_file.h"
-#include "ringlet/groom/usd_layer.h"
-#include "ringlet/groom/usda_file.h"
-#include "ringlet/groom/usdc_file.h"
+#include "ringlet/groom/usd/usd_file.h"
+#include "ringlet/groom/usd/usd_layer.h"
+#include "ringlet/groom/usd/usda_file.h"
+#include "ringlet/groom/usd/usdc_file.h"
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/output/animation_writer.h"
 #include "tests/support/test_support.h"

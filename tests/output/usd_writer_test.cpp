@@ -1,5 +1,5 @@
 // hair.usda: read back by a reader that shares nothing with the writer, whole, cut short, and on a full disk.
-#include "ringlet/output/usd_writer.h"
+#include "ringlet/output/usd/usd_writer.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

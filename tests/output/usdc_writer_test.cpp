@@ -1,6 +1,6 @@
 // hair.usdc: what a crate of ours holds, read by the reader of other programs' crates; its size; velocities
 // and transforms against closed forms.
-#include "ringlet/output/usdc_writer.h"
+#include "ringlet/output/usd/usdc_writer.h"
 
 #include <gtest/gtest.h>
 
@@ -15,11 +15,11 @@
 #include <string>
 #include <vector>
 
-#include "ringlet/groom/usd_file.h"
-#include "ringlet/groom/usd_layer.h"
-#include "ringlet/groom/usdc_file.h"
-#include "ringlet/groom/usdc_format.h"
-#include "ringlet/output/usdc_reader.h"
+#include "ringlet/groom/usd/usd_file.h"
+#include "ringlet/groom/usd/usd_layer.h"
+#include "ringlet/groom/usd/usdc_file.h"
+#include "ringlet/groom/usd/usdc_format.h"
+#include "ringlet/output/usd/usdc_reader.h"
 #include "tests/support/test_support.h"
 
 namespace ringlet::usdc_writer_test {

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "ringlet/groom/groom_file.h"
-#include "ringlet/scenes/cut_list.h"
+#include "ringlet/scenes/frames/cut_list.h"
 #include "tests/program/run_program.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/test_support.h"

@@ -17,7 +17,7 @@
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/groom/hair_styles.h"
 #include "ringlet/groom/root_ends.h"
-#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/load/load_scene.h"
 #include "tests/groom/groom_samples.h"
 #include "tests/groom/style_samples.h"
 #include "tests/program/run_program.h"

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ringlet/groom/groom_file.h"
-#include "ringlet/output/usd_writer.h"
+#include "ringlet/output/usd/usd_writer.h"
 #include "tests/measure/strand_samples.h"
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"

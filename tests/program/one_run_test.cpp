@@ -17,7 +17,7 @@
 #include "ringlet/output/positions_hash.h"
 #include "ringlet/run/scene_run.h"
 #include "ringlet/scenes/builtin_scene.h"
-#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/load/load_scene.h"
 #include "tests/program/run_program.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/test_support.h"

@@ -9,7 +9,7 @@
 
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/scenes/builtin_scene.h"
-#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/file/scene_file.h"
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "ringlet/solver/shape_cost_file.h"
+#include "ringlet/solver/plan/shape_cost_file.h"
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 

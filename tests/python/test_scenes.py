@@ -1,4 +1,6 @@
 # Whole scenes: the bits of `ringlet simulate` and `ringlet scene` in every kind of scene, and callbacks.
+import json
+
 import numpy as np
 import pytest
 
@@ -74,6 +76,36 @@ def test_a_scene_file_has_the_bits_of_the_program(device, program, name):
         assert np.array_equal(points, seen)
     last = ringlet.read_groom(program.folder / "out/last.obj", scene.groom.metres_per_unit)
     assert np.array_equal(last.points, run.points())
+
+
+# Every kind of value, of tables that the file has, has in a list, and lacks.
+def test_changes_are_those_of_a_sweep(device, program):
+    (program.folder / "scene.toml").write_text(SCENES["bodies"])
+    scene = program.folder / "scene.toml"
+    changes = {"material.dials.hold": 2, "body.1.radius": np.float64(0.06), "simulation.steps_per_frame": np.int64(3),
+               "contacts.fill_gaps": np.bool_(True), "material.preset": "coil", "air.wind": (2, 0.5, 0), "air.gust": 0.5}
+    texts = ["2,1", "0.06", "3", "true", "coil", "[2, 0.5, 0]", "0.5"]
+    others = [1, 0.05, 2, False, "ringlet", [0, 0, 1], 0.25]  # each makes a difference
+    program("sweep", "scene.toml", *(f"--vary={key}={text}" for key, text in zip(changes, texts)), "-o", "sweep",
+            "--untuned", "--quiet", "--last-only", tells=False)
+
+    def hash_of(changes):
+        return ringlet.Scene.load(scene, changes=changes).run(device=device).positions_hash
+
+    told = [json.loads((program.folder / f"sweep/run-000{run}/run.json").read_text())["positions_hash"] for run in (1, 2)]
+    assert hash_of(changes) == told[0]
+    assert hash_of(changes | {"material.dials.hold": 1}) == told[1]
+    for key, other in zip(changes, others):
+        assert hash_of(changes | {key: other}) != told[0], key
+    with pytest.raises(TypeError, match="a key of a scene is a text, got 1"):
+        ringlet.Scene.load(scene, changes={1: 2})
+    parsed = ringlet.Scene.parse(scene.read_text(), changes=changes)
+    assert parsed.run(device=device).positions_hash == told[0]
+    with pytest.raises(ringlet.Error, match="no_such_key"):
+        ringlet.Scene.load(scene, changes={"material.no_such_key": 1})
+    for wrong in (None, {1: 2}, object(), b"coil"):
+        with pytest.raises(TypeError, match="a change is a number, a bool, a text or a list of these"):
+            ringlet.Scene.load(scene, changes={"material.preset": wrong})
 
 
 @pytest.mark.parametrize("name", ["hanging_curl", "two_curls", "walk_head"])

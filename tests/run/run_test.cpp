@@ -11,7 +11,7 @@
 
 #include "ringlet/output/positions_hash.h"
 #include "ringlet/run/divided_hair.h"
-#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/file/scene_file.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/test_support.h"
 

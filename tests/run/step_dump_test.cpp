@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "ringlet/run/scene_run.h"
-#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/file/scene_file.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/test_support.h"
 

@@ -1,5 +1,5 @@
 // Paths of scene files: all of them are known, and a confined scene names none outside of its folder.
-#include "ringlet/scenes/scene_paths.h"
+#include "ringlet/scenes/load/scene_paths.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Goals from files: animations in every format that is read, and grooms in another pose.
-#include "ringlet/scenes/goal_animation.h"
+#include "ringlet/scenes/load/goal_animation.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include "ringlet/groom/generate.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/output/animation_writer.h"
-#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/load/load_scene.h"
 #include "tests/support/test_support.h"
 
 namespace ringlet::goal_animation_test {

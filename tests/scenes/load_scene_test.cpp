@@ -1,6 +1,6 @@
-// scenes/load_scene.h: everything a run of a scene file starts from. That whole runs have the bits of the
-// command's is tests/python/test_scenes.py.
-#include "ringlet/scenes/load_scene.h"
+// scenes/load/load_scene.h: everything a run of a scene file starts from. That whole runs have the bits of
+// the command's is tests/python/test_scenes.py.
+#include "ringlet/scenes/load/load_scene.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
-// scenes/motion_reach.h: motions that end before the run, or that only jump, are said with their numbers.
-#include "ringlet/scenes/motion_reach.h"
+// scenes/load/motion_reach.h: motions that end before the run, or that only jump, are said with their
+// numbers.
+#include "ringlet/scenes/load/motion_reach.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,7 +9,7 @@
 #include <fstream>
 #include <string>
 
-#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/load/load_scene.h"
 #include "tests/motion/gltf_samples.h"
 #include "tests/support/test_support.h"
 

@@ -1,5 +1,5 @@
 // Cameras that a scene names: at a place, with the head or a joint, and of glTF files with their animation.
-#include "ringlet/scenes/scene_camera.h"
+#include "ringlet/scenes/load/scene_camera.h"
 
 #include <gtest/gtest.h>
 

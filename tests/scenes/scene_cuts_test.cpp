@@ -1,13 +1,13 @@
 // Cuts of scenes: what a scene says of them, and with which frame each is made.
-#include "ringlet/scenes/scene_cuts.h"
+#include "ringlet/scenes/frames/scene_cuts.h"
 
 #include <gtest/gtest.h>
 
 #include <optional>
 
 #include "ringlet/run/scene_run.h"
-#include "ringlet/scenes/load_scene.h"
-#include "ringlet/scenes/scene_text.h"
+#include "ringlet/scenes/file/scene_text.h"
+#include "ringlet/scenes/load/load_scene.h"
 #include "tests/support/gpu_test.h"
 
 namespace ringlet::scene_cuts_test {

@@ -1,7 +1,7 @@
 // Scene files: what is read and into which field, what is refused and in which words, that writing and
 // reading give back the same, and what becomes of it. What a run makes of them:
 // tests/program/scene_file_test.cpp.
-#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/file/scene_file.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 
 #include "ringlet/groom/hair_styles.h"
 #include "ringlet/rest/material_presets.h"
-#include "ringlet/scenes/scene_parts.h"
+#include "ringlet/scenes/load/scene_parts.h"
 #include "tests/support/test_support.h"
 
 namespace ringlet::scene_file_test {

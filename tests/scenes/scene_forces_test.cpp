@@ -1,5 +1,5 @@
 // Force fields and holds of scenes: what a scene says of them, and what they are frame by frame.
-#include "ringlet/scenes/scene_forces.h"
+#include "ringlet/scenes/frames/scene_forces.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "ringlet/rest/goal.h"
-#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/load/load_scene.h"
 #include "tests/scenes/joint_samples.h"
 #include "tests/support/test_support.h"
 

@@ -1,13 +1,13 @@
 // What a scene says of each frame: when, where, what changes; alone, in single steps, with something dragged,
 // with a clock that is changed.
-#include "ringlet/scenes/scene_frames.h"
+#include "ringlet/scenes/frames/scene_frames.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "ringlet/scenes/load_scene.h"
-#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/file/scene_file.h"
+#include "ringlet/scenes/load/load_scene.h"
 
 namespace ringlet::scene_frames_test {
 namespace {

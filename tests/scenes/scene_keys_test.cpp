@@ -1,12 +1,12 @@
 // Numbers of a scene that change while hair moves: which may, what they are at a time, what readers say.
-#include "ringlet/scenes/scene_keys.h"
+#include "ringlet/scenes/frames/scene_keys.h"
 
 #include <gtest/gtest.h>
 
 #include "ringlet/rest/live_material.h"
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/scene/settings_fields.h"
-#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/load/load_scene.h"
 #include "tests/support/test_support.h"
 
 namespace ringlet::scene_keys_test {

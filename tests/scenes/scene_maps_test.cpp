@@ -1,6 +1,6 @@
 // Factors on a material's numbers, strand by strand: what files and scenes say of them, and what becomes of a
 // strand.
-#include "ringlet/scenes/scene_maps.h"
+#include "ringlet/scenes/load/scene_maps.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "ringlet/rest/live_material.h"
 #include "ringlet/rest/material_presets.h"
-#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/load/load_scene.h"
 #include "tests/support/test_support.h"
 
 namespace ringlet::scene_maps_test {

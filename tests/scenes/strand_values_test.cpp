@@ -1,5 +1,5 @@
 // Maps by what a USD groom says of its curves: primvars of every interpolation, textures at UVs; and groups.
-#include "ringlet/scenes/strand_values.h"
+#include "ringlet/scenes/load/strand_values.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 #include <fstream>
 
 #include "ringlet/groom/groom_file.h"
-#include "ringlet/scenes/load_scene.h"
-#include "ringlet/scenes/scene_maps.h"
+#include "ringlet/scenes/load/load_scene.h"
+#include "ringlet/scenes/load/scene_maps.h"
 #include "tests/support/test_support.h"
 
 namespace ringlet::strand_values_test {

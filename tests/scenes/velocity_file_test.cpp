@@ -1,5 +1,5 @@
 // Grids of velocities from NumPy files, as bytes; what numpy.save itself writes is read in tests/python.
-#include "ringlet/scenes/velocity_file.h"
+#include "ringlet/scenes/frames/velocity_file.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

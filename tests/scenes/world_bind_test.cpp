@@ -1,6 +1,6 @@
-// scenes/world_bind.h: what is bound to the world stands where it was modelled at its frame, whatever axes
-// the joint has, and goes along from there.
-#include "ringlet/scenes/world_bind.h"
+// scenes/load/world_bind.h: what is bound to the world stands where it was modelled at its frame, whatever
+// axes the joint has, and goes along from there.
+#include "ringlet/scenes/load/world_bind.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/load/load_scene.h"
 #include "tests/scenes/joint_samples.h"
 #include "tests/support/test_support.h"
 

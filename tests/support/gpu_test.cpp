@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ringlet/solver/shape_plan.h"
+#include "ringlet/solver/plan/shape_plan.h"
 
 namespace ringlet::test {
 namespace {

@@ -3,11 +3,17 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <fstream>
+#include <memory>
 #include <optional>
 
 #include "ringlet/gpu/recorder.h"
-#include "ringlet/scenes/load_scene.h"
+#include "ringlet/pictures/hair_ground.h"
+#include "ringlet/scenes/load/load_scene.h"
+#include "tests/motion/gltf_samples.h"
 #include "tests/support/gpu_test.h"
+#include "tests/support/test_support.h"
 #include "view/hair_pane.h"
 #include "view/mouse_control.h"
 
@@ -354,6 +360,80 @@ TEST_F(SessionTest, PanesDrawTheHairThatIsSimulated) {
   EXPECT_GT(shared(still, moved), 0.5) << "a camera that went along sees much the same";
   EXPECT_LT(shared(still, draw({.eye = {0, -0.1, 1}, .target = {0, -0.1, 0}})), 0.2)
       << "one that stayed does not";
+}
+
+// On a scalp that bends, whose head is dragged: the roots are where the solver has them, and hairs follow
+// there.
+TEST_F(SessionTest, HairsOnAScalpStandWhereItHasTheirRoots) {
+  const auto folder = test::scratchFolder("session_scalp");
+  std::ofstream(folder / "strip.glb", std::ios::binary) << test::bendingStrip(8, 5121, 5126).glb();
+  std::ofstream obj(folder / "groom.obj");
+  for (const double x : {0.125, 0.625, 1.625})
+    for (int k = 0; k < 5; ++k) obj << "v " << x << " " << -0.025 * k << " -0.05\n";
+  obj << "l 1 2 3 4 5\nl 6 7 8 9 10\nl 11 12 13 14 15\n";
+  obj.close();
+  Scene scene;
+  scene.file =
+      *parseScene("[groom]\nfile = 'groom.obj'\nunit = 1\n[scalp]\nfile = 'strip.glb'\n", "scene", folder);
+  scene.loaded = std::move(*loadScene(scene.file));
+  const LoadedScene& loaded = *scene.loaded;
+  Session session = make(scene);
+  session.headDrag.move({0.1, 0.05, 0});
+  const std::vector<Vec3f> positions = run(session, 12);
+  const std::vector<Vec3d> strandRoots = session.strandRoots();
+  ASSERT_EQ(strandRoots.size(), 3u);
+  double bent = 0;
+  for (std::size_t s = 0; s < 3; ++s) {
+    EXPECT_LT(length(session.head().position + Vec3d(positions[5 * s]) - strandRoots[s]), 1e-5) << s;
+    const Vec3d carried = session.head().position + Vec3d(loaded.groom.strand(s).front());
+    bent = std::max(bent, length(strandRoots[s] - carried));
+  }
+  EXPECT_GT(bent, 0.01);
+  EXPECT_TRUE(make(sceneOf()).strandRoots().empty());
+
+  PaneLook look;
+  look.size = {
+      .width = 120, .height = 80, .side = 2, .shadowCells = 32, .shadowSlices = 16, .densityCells = 8};
+  look.width = 0.004;
+  auto follow = FollowPlan::make(loaded.groom, 1, {.hairCount = 300}, *hairGroundOf(loaded, {}));
+  ASSERT_TRUE(follow) << follow.error().message;
+  EXPECT_TRUE(follow->isOnScalp());
+  look.follow = std::make_shared<const FollowPlan>(std::move(*follow));
+  auto pane = HairPane::create(gpu(), loaded.groom, look);
+  ASSERT_TRUE(pane) << pane.error().message;
+  ASSERT_TRUE(pane->attach(gpu(), session.hairs()[0].simulation()));
+  const Vec3d middle = (strandRoots[0] + strandRoots[1] + strandRoots[2]) / 3;
+  const Camera camera{.eye = middle + Vec3d{0, 0, 4}, .target = middle};
+  const std::vector<Vec3d> roots = look.follow->rootsAt(session.seconds(), session.head());
+  ASSERT_TRUE(pane->setFrame(camera, session.head(), {}, {}, roots, strandRoots));
+  auto recorder = gpu::Recorder::create(gpu(), "pane");
+  ASSERT_TRUE(recorder->begin());
+  pane->record(*recorder, session.head().rotation);
+  ASSERT_TRUE(recorder->submitAndWait());
+  std::vector<std::uint32_t> pixels(120 * 80);
+  ASSERT_TRUE(pane->shown().download(std::as_writable_bytes(std::span(pixels))));
+  // How many of the places have hair, which is far redder than what is behind it, at most a pixel beside
+  // them.
+  const auto shareOf = [&](const std::vector<Vec3d>& places) {
+    double count = 0;
+    for (const Vec3d& place : places) {
+      const Vec3d way = place - camera.eye;
+      const double perPixel = -way.z * std::tan(camera.fieldOfView / 2) / 40;
+      const int left = static_cast<int>(60 + way.x / perPixel), top = static_cast<int>(40 - way.y / perPixel);
+      bool isThere = false;
+      for (int y = -1; y <= 1; ++y)
+        for (int x = -1; x <= 1; ++x) {
+          const std::uint32_t p = pixels.at(static_cast<std::size_t>((top + y) * 120 + left + x));
+          isThere = isThere || (p & 255) > (p >> 16 & 255) + 40;
+        }
+      count += isThere;
+    }
+    return count / static_cast<double>(places.size());
+  };
+  std::vector<Vec3d> carried;  // by the head
+  for (const Vec3d& root : look.follow->restRoots()) carried.push_back(session.head().position + root);
+  EXPECT_GT(shareOf(roots), 0.9);
+  EXPECT_LT(shareOf(carried), 0.6);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/scene/settings_fields.h"
-#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/file/scene_file.h"
 #include "tests/support/test_support.h"
 #include "view/edit_history.h"
 

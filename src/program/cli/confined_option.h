@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "program/cli/cli_fwd.h"
-#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/file/scene_file.h"
 
 namespace ringlet::program {
 

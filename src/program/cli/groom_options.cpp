@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "program/cli/command_line.h"
-#include "ringlet/scenes/scene_parts.h"
+#include "ringlet/scenes/load/scene_parts.h"
 
 namespace ringlet::program {
 

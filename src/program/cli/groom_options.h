@@ -6,7 +6,7 @@
 
 #include "program/cli/cli_fwd.h"
 #include "ringlet/groom/loaded_groom.h"
-#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/file/scene_file.h"
 
 namespace ringlet::program {
 

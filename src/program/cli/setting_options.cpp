@@ -11,7 +11,7 @@
 
 #include "program/cli/command_line.h"
 #include "ringlet/base/assert.h"
-#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/file/scene_file.h"
 
 namespace ringlet::program {
 namespace {

@@ -29,8 +29,8 @@
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/output/animation_writer.h"
 #include "ringlet/output/precision_names.h"
-#include "ringlet/scenes/load_scene.h"
-#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/file/scene_file.h"
+#include "ringlet/scenes/load/load_scene.h"
 
 namespace ringlet::program {
 namespace {

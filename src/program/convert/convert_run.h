@@ -8,7 +8,7 @@
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/output/animation_writer.h"
 #include "ringlet/pictures/full_hair.h"
-#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/load/load_scene.h"
 
 namespace ringlet::program {
 

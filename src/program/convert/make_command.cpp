@@ -22,8 +22,8 @@
 #include "ringlet/groom/generate.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/groom/hair_styles.h"
-#include "ringlet/scenes/scene_fields.h"
-#include "ringlet/scenes/scene_parts.h"
+#include "ringlet/scenes/file/scene_fields.h"
+#include "ringlet/scenes/load/scene_parts.h"
 
 namespace ringlet::program {
 namespace {

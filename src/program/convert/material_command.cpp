@@ -23,7 +23,7 @@
 #include "ringlet/rest/material_file.h"
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/material_presets.h"
-#include "ringlet/scenes/scene_maps.h"
+#include "ringlet/scenes/load/scene_maps.h"
 
 namespace ringlet::program {
 namespace {

@@ -10,7 +10,7 @@
 #include "ringlet/base/result.h"
 #include "ringlet/rest/material_dials.h"
 #include "ringlet/scene/settings.h"
-#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/file/scene_file.h"
 
 namespace ringlet::program {
 

@@ -7,7 +7,7 @@
 #include "program/cli/standard_error.h"
 #include "program/device/open_device.h"
 #include "ringlet/run/divided_hair.h"
-#include "ringlet/solver/shape_plan.h"
+#include "ringlet/solver/plan/shape_plan.h"
 
 namespace ringlet::program {
 namespace {

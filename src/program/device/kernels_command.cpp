@@ -21,7 +21,7 @@
 #include "program/device/kernels_list.h"
 #include "program/device/kernels_statistics.h"
 #include "ringlet/gpu/device.h"
-#include "ringlet/solver/shape_plan.h"
+#include "ringlet/solver/plan/shape_plan.h"
 
 namespace ringlet::program {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "program/device/planned_shapes.h"
 #include "ringlet/gpu/device_buffers.h"
-#include "ringlet/solver/contact_kernels.h"
-#include "ringlet/solver/strand_kernels.h"
-#include "ringlet/solver/volume_kernels.h"
+#include "ringlet/solver/contacts/contact_kernels.h"
+#include "ringlet/solver/contacts/volume_kernels.h"
+#include "ringlet/solver/strands/strand_kernels.h"
 
 namespace ringlet::program {
 namespace {

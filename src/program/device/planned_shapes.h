@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "ringlet/solver/shape_plan.h"
+#include "ringlet/solver/plan/shape_plan.h"
 
 namespace ringlet::program {
 

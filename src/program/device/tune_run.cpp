@@ -13,9 +13,9 @@
 #include "parity/tolerances.h"
 #include "program/cli/interruption.h"
 #include "program/cli/progress_bar.h"
-#include "ringlet/solver/shape_plan.h"
+#include "ringlet/solver/plan/shape_plan.h"
+#include "ringlet/solver/plan/subgroup_choice.h"
 #include "ringlet/solver/simulation.h"
-#include "ringlet/solver/subgroup_choice.h"
 
 namespace ringlet::program {
 namespace {

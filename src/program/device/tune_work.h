@@ -6,7 +6,7 @@
 #include "ringlet/base/result.h"
 #include "ringlet/solver/compute_device.h"
 #include "ringlet/solver/kernel_choice.h"
-#include "ringlet/solver/shape_plan.h"
+#include "ringlet/solver/plan/shape_plan.h"
 #include "ringlet/solver/simulation.h"
 
 namespace ringlet::program {

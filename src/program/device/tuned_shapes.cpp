@@ -7,8 +7,8 @@
 #include <system_error>
 
 #include "program/cli/cache_folder.h"
-#include "ringlet/solver/shape_cost_file.h"
-#include "ringlet/solver/subgroup_choice.h"
+#include "ringlet/solver/plan/shape_cost_file.h"
+#include "ringlet/solver/plan/subgroup_choice.h"
 
 namespace ringlet::program {
 namespace {

@@ -25,9 +25,9 @@
 #include "ringlet/measure/groom_doubts.h"
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/pictures/render_animation.h"
-#include "ringlet/scenes/load_scene.h"
-#include "ringlet/scenes/scene_camera.h"
-#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/file/scene_file.h"
+#include "ringlet/scenes/load/load_scene.h"
+#include "ringlet/scenes/load/scene_camera.h"
 
 namespace ringlet::program {
 namespace {

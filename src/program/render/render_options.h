@@ -9,7 +9,7 @@
 #include "program/cli/groom_options.h"
 #include "ringlet/pictures/hair_look.h"
 #include "ringlet/pictures/render_animation.h"
-#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/file/scene_file.h"
 
 namespace ringlet::program {
 

@@ -10,7 +10,7 @@
 #include "program/device/gpu_hair.h"
 #include "program/simulate/reference_hair.h"
 #include "ringlet/run/split_hair.h"
-#include "ringlet/scenes/scene_frames.h"
+#include "ringlet/scenes/frames/scene_frames.h"
 
 namespace ringlet::program {
 namespace {

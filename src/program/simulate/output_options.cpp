@@ -12,7 +12,7 @@
 #include "ringlet/output/animation_writer.h"
 #include "ringlet/output/precision_names.h"
 #include "ringlet/scene/setting_field.h"
-#include "ringlet/scenes/scene_fields.h"
+#include "ringlet/scenes/file/scene_fields.h"
 
 namespace ringlet::program {
 namespace {

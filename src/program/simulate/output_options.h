@@ -8,7 +8,7 @@
 #include "program/cli/cli_fwd.h"
 #include "ringlet/pictures/hair_look.h"
 #include "ringlet/run/run_options.h"
-#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/file/scene_file.h"
 
 namespace ringlet::program {
 

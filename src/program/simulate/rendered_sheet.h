@@ -3,7 +3,7 @@
 
 #include "program/simulate/simulate_run.h"
 #include "ringlet/base/result.h"
-#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/load/load_scene.h"
 
 namespace ringlet::program {
 

@@ -29,8 +29,8 @@
 #include "ringlet/measure/frame_turn.h"
 #include "ringlet/measure/motion_measure.h"
 #include "ringlet/scenes/builtin_scene.h"
-#include "ringlet/scenes/scene_file.h"
-#include "ringlet/scenes/scene_parts.h"
+#include "ringlet/scenes/file/scene_file.h"
+#include "ringlet/scenes/load/scene_parts.h"
 
 namespace ringlet::program {
 namespace {

@@ -34,8 +34,8 @@
 #include "ringlet/run/run_facts.h"
 #include "ringlet/run/run_folder.h"
 #include "ringlet/run/run_writers.h"
-#include "ringlet/scenes/load_scene.h"
-#include "ringlet/scenes/scene_fields.h"
+#include "ringlet/scenes/file/scene_fields.h"
+#include "ringlet/scenes/load/load_scene.h"
 
 namespace ringlet::program {
 namespace {
@@ -108,6 +108,7 @@ struct TypedSimulate {
   std::vector<std::string> devices;
   std::optional<int> checkpoint;
   std::optional<std::uint64_t> dump;
+  std::filesystem::path trace;
   bool measuresContacts = false, noChebyshev = false, untuned = false, json = false, quiet = false,
        jsonProgress = false, resume = false, overwrite = false;
 };
@@ -229,6 +230,8 @@ void checkOptions(const TypedSimulate& typed, const SceneFile& scene) {
   }
   if (typed.dump && typed.backend == "reference")
     throw CLI::ValidationError("--dump", "only --backend gpu has buffers to write");
+  if (!typed.trace.empty() && typed.backend == "reference")
+    throw CLI::ValidationError("--trace", "only --backend gpu has dispatches");
   if (typed.subgroup && (typed.backend == "reference" || typed.kernel == "serial")) {
     throw CLI::ValidationError("--subgroup",
                                "only --backend gpu with --kernel auto, lanes or memory asks for subgroups");
@@ -256,6 +259,7 @@ SimulateOptions optionsOf(const TypedSimulate& typed, const SceneFile& scene) {
   options.showProgress = !typed.quiet;
   options.tellsFrames = typed.jsonProgress;
   options.checkpointFrames = typed.checkpoint.value_or(0);
+  options.trace = typed.trace;
   options.leftovers = typed.resume ? (typed.overwrite ? Leftovers::resumeOrOverwrite : Leftovers::resume)
                                    : (typed.overwrite ? Leftovers::overwrite : Leftovers::refuse);
   return options;
@@ -269,6 +273,8 @@ int run(const TypedSimulate& typed) {
   checkOptions(typed, *scene);
   if (Status applied = applyMaterialOptions(typed.material, *scene); !applied)
     return fail("simulate", applied.error());
+  if (!typed.trace.empty() && isOneOfRanks())
+    return fail("simulate", {"--trace tells of one device; start it without mpirun", Fault::input});
   SimulateOptions options = optionsOf(typed, *scene);
   if (typed.reach == SceneReach::ownFolder && typed.folder.empty()) {
     if (Status linkless = checkHoldsNoLinks(options.folder); !linkless)
@@ -556,6 +562,10 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
   for (const char* ofARun : {"--devices", "--measure-contacts", "--checkpoint", "--resume", "--overwrite",
                              "--json-progress", "--json"})
     dump->excludes(ofARun);
+  CLI::Option* trace = command->add_option("--trace", typed->trace,
+                                           "Write when each dispatch ran, for chrome://tracing or Perfetto");
+  trace->type_name("FILE")->group(output);
+  for (const char* other : {"--devices", "--measure-contacts", "--dump"}) trace->excludes(other);
 
   command->callback([typed, &exitCode] { exitCode = run(*typed); });
 }

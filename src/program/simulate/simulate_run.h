@@ -5,7 +5,7 @@
 #include "program/device/device_choice.h"
 #include "ringlet/base/result.h"
 #include "ringlet/run/run.h"
-#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/load/load_scene.h"
 
 namespace ringlet::program {
 

@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-#include "ringlet/scenes/scene_paths.h"
+#include "ringlet/scenes/load/scene_paths.h"
 
 namespace ringlet::program {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "ringlet/base/result.h"
-#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/file/scene_file.h"
 
 namespace ringlet::program {
 

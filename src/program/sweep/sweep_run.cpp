@@ -35,7 +35,7 @@
 #include "ringlet/run/run_facts.h"
 #include "ringlet/run/run_folder.h"
 #include "ringlet/run/run_writers.h"
-#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/load/load_scene.h"
 #include "ringlet/version.h"
 
 namespace ringlet::program {

@@ -25,11 +25,11 @@
 #include "ringlet/pictures/follow_plan.h"
 #include "ringlet/pictures/picture_solids.h"
 #include "ringlet/render/look.h"
-#include "ringlet/scenes/cut_list.h"
-#include "ringlet/scenes/load_scene.h"
-#include "ringlet/scenes/scene_file.h"
-#include "ringlet/scenes/scene_frames.h"
-#include "ringlet/scenes/scene_parts.h"
+#include "ringlet/scenes/file/scene_file.h"
+#include "ringlet/scenes/frames/cut_list.h"
+#include "ringlet/scenes/frames/scene_frames.h"
+#include "ringlet/scenes/load/load_scene.h"
+#include "ringlet/scenes/load/scene_parts.h"
 #include "view/viewer.h"
 
 namespace ringlet::program {
@@ -129,17 +129,15 @@ Status addHairs(const LoadedScene& scene, int hairs, const HairLook& look, view:
   const double count = hairs > 0 ? hairs : static_cast<double>(scene.groom.strandCount());
   plan.look.width = std::min(widthOfHairs(count), view::kMostStrandWidth);
   if (hairs == 0) return {};
-  // The head carries hairs' roots here, also where a scalp carries those of strands.
-  const auto ground = hairGroundOf(scene.hairs, nullptr, look, scene.groom.metresPerUnit);
+  const auto ground = hairGroundOf(scene, look);
   if (!ground) return ground.error();
   const double lastCut = scene.cuts.empty() ? 0 : scene.cuts.back().seconds;
   const int frames = static_cast<int>(std::ceil(lastCut * scene.settings.framesPerSecond)) + 1;
   auto follow = FollowPlan::make(scene.groom, scene.groom.metresPerUnit, look.of({.hairCount = hairs}),
                                  *ground, CutList(SceneFrames(scene), frames));
   if (!follow) return follow.error();
-  plan.look.guides = follow->guides();
+  plan.look.follow = std::make_shared<const FollowPlan>(std::move(*follow));
   plan.look.bodies = scene.bodies;
-  plan.look.hairs = follow->hairs();
   return {};
 }
 

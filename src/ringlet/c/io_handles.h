@@ -12,8 +12,8 @@
 #include "ringlet/groom/groom.h"
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/output/animation_writer.h"
-#include "ringlet/scenes/load_scene.h"
-#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/file/scene_file.h"
+#include "ringlet/scenes/load/load_scene.h"
 
 namespace ringlet::c {
 

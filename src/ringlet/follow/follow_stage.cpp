@@ -244,10 +244,9 @@ Result<FollowStage> FollowStage::create(gpu::Device& device, std::span<const Gui
   if (Status made = self.makeHairs(device, guides, hairs); !made) return made.error();
   if (isOnScalp) {
     self.onScalp_.assign(hairs.begin(), hairs.end());
-    std::vector<std::uint32_t> first{0};
+    std::uint32_t first = 0;
     for (const GuideRest& guide : guides)
-      first.push_back(first.back() + static_cast<std::uint32_t>(guide.arcs.size()));
-    for (const FollowHair& hair : hairs) self.guideRoots_.push_back(first[hair.guide]);
+      self.guideRoots_.push_back(std::exchange(first, first + static_cast<std::uint32_t>(guide.arcs.size())));
   }
   const bool areCut =
       std::ranges::any_of(guides, [](const GuideRest& guide) { return !guide.pieces.empty(); });
@@ -258,16 +257,23 @@ Result<FollowStage> FollowStage::create(gpu::Device& device, std::span<const Gui
 
 Status FollowStage::setPose(std::span<const Vec3d> positions, std::span<const Vec3d> roots,
                             std::span<const std::uint32_t> cutBeyond) {
-  RINGLET_ASSERT(roots.size() == onScalp_.size(), "hairs on a scalp have a root each");
   std::vector<layout::vec4> records;
   records.reserve(positions.size());
   for (const Vec3d& position : positions) records.push_back(packed(position));
   for (const std::uint32_t particle : cutBeyond) records[particle].w = -1;
-  if (Status done = positions_.upload(std::as_bytes(std::span(records))); !done || roots.empty()) return done;
+  if (Status done = positions_.upload(std::as_bytes(std::span(records))); !done) return done;
+  std::vector<Vec3d> guideRoots;
+  for (const std::uint32_t particle : guideRoots_) guideRoots.push_back(positions[particle]);
+  return setRoots(roots, guideRoots);
+}
+
+Status FollowStage::setRoots(std::span<const Vec3d> roots, std::span<const Vec3d> guideRoots) {
+  RINGLET_ASSERT(roots.size() == onScalp_.size(), "hairs on a scalp have a root each");
+  if (roots.empty()) return {};
   std::vector<layout::FollowHair> hairs;
   hairs.reserve(roots.size());
   for (std::size_t h = 0; h < roots.size(); ++h)
-    hairs.push_back(recordOf(onScalp_[h], firstPoint_[h], Vec3f(roots[h] - positions[guideRoots_[h]])));
+    hairs.push_back(recordOf(onScalp_[h], firstPoint_[h], Vec3f(roots[h] - guideRoots[onScalp_[h].guide])));
   return others_.back().upload(std::as_bytes(std::span(hairs)));
 }
 

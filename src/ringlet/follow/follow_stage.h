@@ -34,7 +34,10 @@ class FollowStage {
   Status setPose(std::span<const Vec3d> positions, std::span<const Vec3d> roots = {},
                  std::span<const std::uint32_t> cutBeyond = {});
 
-  /// vec4[particles]: the same on the device, for what writes it there (DevicePose).
+  /// The same of the roots alone, where the pose is written on the device: of hairs, and of their guides [m].
+  Status setRoots(std::span<const Vec3d> roots, std::span<const Vec3d> guideRoots);
+
+  /// vec4[particles]: the pose on the device, for what writes it there (DevicePose).
   const gpu::Buffer& pose() const { return positions_; }
 
   /// Where bodies are in the next frame, one pose a body; `origin` is where the guides' particles are seen
@@ -73,7 +76,7 @@ class FollowStage {
   std::optional<gpu::Buffer> blends_;      // where hairs follow several guides
   std::vector<gpu::BoundKernel> kernels_;  // in their order; that of bodies only where there are any
   std::vector<FollowHair> onScalp_;        // the hairs, where a scalp carries their roots; else none
-  std::vector<std::uint32_t> guideRoots_;  // the particle at the root of each one's guide
+  std::vector<std::uint32_t> guideRoots_;  // the particle at the root of each guide
   std::vector<std::uint32_t> firstPoint_;
   std::uint32_t guideCount_ = 0, particleCount_ = 0, hairCount_ = 0, pointCount_ = 0, stride_ = 0;
 };

@@ -40,6 +40,7 @@ struct Recorder::State {
          ownMilliseconds = 0;  // from submit; from the wait before, if that is later
   double submitMilliseconds = 0, fenceMilliseconds = 0;
   std::vector<std::pair<std::string, double>> stageMilliseconds;
+  std::vector<double> stageStarts;
 
   ~State() {
     // Nothing may be destroyed under the device's hands; a lost device answers at once. Where the fence tells
@@ -103,10 +104,13 @@ struct Recorder::State {
 
   Status readStages() {
     stageMilliseconds.clear();
+    stageStarts.clear();
     const DeviceProperties& properties = device->properties();
     if (!properties.hasTimestamps) {
       for (const std::string& stage : stages) {
-        stageMilliseconds.emplace_back(stage, ownMilliseconds / static_cast<double>(stages.size()));
+        const double each = ownMilliseconds / static_cast<double>(stages.size());
+        stageStarts.push_back(each * static_cast<double>(stageMilliseconds.size()));
+        stageMilliseconds.emplace_back(stage, each);
       }
       return {};
     }
@@ -126,6 +130,7 @@ struct Recorder::State {
         const std::uint64_t elapsed = (ticks[2 * i + 1] - ticks[2 * i]) & mask;
         stageMilliseconds.emplace_back(stages[first + i],
                                        static_cast<double>(elapsed) * properties.timestampPeriod * 1e-6);
+        stageStarts.push_back(static_cast<double>(ticks[2 * i] & mask) * properties.timestampPeriod * 1e-6);
       }
     }
     return {};
@@ -261,6 +266,7 @@ Status Recorder::submitAndWait() {
 const std::vector<std::pair<std::string, double>>& Recorder::stageMilliseconds() const {
   return self_->stageMilliseconds;
 }
+const std::vector<double>& Recorder::stageStarts() const { return self_->stageStarts; }
 double Recorder::submissionMilliseconds() const { return self_->submissionMilliseconds; }
 double Recorder::submitMilliseconds() const { return self_->submitMilliseconds; }
 double Recorder::fenceMilliseconds() const { return self_->fenceMilliseconds; }

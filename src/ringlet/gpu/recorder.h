@@ -38,6 +38,8 @@ class Recorder : public CommandList {
   /// the host's clock in equal parts, less what went by before the wait for an earlier submission ended. A
   /// name recorded twice stands here twice.
   const std::vector<std::pair<std::string, double>>& stageMilliseconds() const;
+  /// When each of these began, on the device's clock, else from the submission on [ms].
+  const std::vector<double>& stageStarts() const;
   /// From submit to the end of wait, on the host's clock [ms].
   double submissionMilliseconds() const;
   /// On the host's clock, what the last submit took, and how long the last wait stood at its fence [ms].

@@ -20,7 +20,7 @@
 #include "ringlet/groom/root_ends.h"
 #include "ringlet/groom/strand_list_file.h"
 #include "ringlet/groom/tfx_file.h"
-#include "ringlet/groom/usd_file.h"
+#include "ringlet/groom/usd/usd_file.h"
 
 namespace ringlet {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "ringlet/groom/groom.h"
-#include "ringlet/groom/usd_matrix.h"
+#include "ringlet/groom/usd/usd_matrix.h"
 
 namespace ringlet {
 

@@ -12,7 +12,7 @@
 
 #include "ringlet/base/assert.h"
 #include "ringlet/output/animation_writer.h"
-#include "ringlet/output/usd_writer.h"
+#include "ringlet/output/usd/usd_writer.h"
 
 namespace ringlet {
 namespace {

@@ -12,8 +12,8 @@
 #include "ringlet/groom/groom.h"
 #include "ringlet/output/cache_format.h"
 #include "ringlet/output/cache_reader.h"
-#include "ringlet/output/usd_reader.h"
-#include "ringlet/output/usdc_reader.h"
+#include "ringlet/output/usd/usd_reader.h"
+#include "ringlet/output/usd/usdc_reader.h"
 
 namespace ringlet {
 

@@ -8,9 +8,9 @@
 
 #include "ringlet/output/cache_writer.h"
 #include "ringlet/output/pc2_writer.h"
-#include "ringlet/output/usd_clips_writer.h"
-#include "ringlet/output/usd_writer.h"
-#include "ringlet/output/usdc_writer.h"
+#include "ringlet/output/usd/usd_clips_writer.h"
+#include "ringlet/output/usd/usd_writer.h"
+#include "ringlet/output/usd/usdc_writer.h"
 
 namespace ringlet {
 namespace {

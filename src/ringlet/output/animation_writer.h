@@ -12,7 +12,7 @@
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/groom.h"
 #include "ringlet/groom/loaded_groom.h"
-#include "ringlet/groom/usd_matrix.h"
+#include "ringlet/groom/usd/usd_matrix.h"
 #include "ringlet/output/cache_format.h"
 #include "ringlet/output/up_axis.h"
 

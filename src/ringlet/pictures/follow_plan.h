@@ -13,7 +13,7 @@
 #include "ringlet/motion/head_scalp.h"
 #include "ringlet/pictures/hair_ground.h"
 #include "ringlet/scene/head_pose.h"
-#include "ringlet/scenes/cut_list.h"
+#include "ringlet/scenes/frames/cut_list.h"
 
 namespace ringlet {
 

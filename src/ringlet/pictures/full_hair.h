@@ -10,7 +10,7 @@
 #include "ringlet/pictures/follow_mover.h"
 #include "ringlet/pictures/follow_plan.h"
 #include "ringlet/scene/body.h"
-#include "ringlet/scenes/cut_list.h"
+#include "ringlet/scenes/frames/cut_list.h"
 
 namespace ringlet {
 

@@ -8,7 +8,7 @@
 #include "ringlet/bodies/triangle_mesh.h"
 #include "ringlet/motion/head_scalp.h"
 #include "ringlet/pictures/hair_look.h"
-#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/load/load_scene.h"
 
 namespace ringlet {
 

@@ -9,7 +9,7 @@
 #include "ringlet/base/vec3.h"
 #include "ringlet/render/camera.h"
 #include "ringlet/scene/motion.h"
-#include "ringlet/scenes/scene_camera.h"
+#include "ringlet/scenes/load/scene_camera.h"
 
 namespace ringlet {
 

@@ -8,7 +8,7 @@
 
 #include "ringlet/base/vec3.h"
 #include "ringlet/render/hair_renderer.h"
-#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/load/load_scene.h"
 
 namespace ringlet {
 

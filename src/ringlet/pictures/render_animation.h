@@ -16,7 +16,7 @@
 #include "ringlet/pictures/picture_hair.h"
 #include "ringlet/pictures/strand_colours.h"
 #include "ringlet/render/hair_renderer.h"
-#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/load/load_scene.h"
 #include "ringlet/solver/compute_device.h"
 
 namespace ringlet {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "ringlet/scene/body.h"
-#include "ringlet/scenes/load_scene.h"
-#include "ringlet/scenes/scene_frames.h"
+#include "ringlet/scenes/frames/scene_frames.h"
+#include "ringlet/scenes/load/load_scene.h"
 
 namespace ringlet {
 

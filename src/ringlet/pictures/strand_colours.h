@@ -20,7 +20,7 @@
 #include "ringlet/pictures/picture_hair.h"
 #include "ringlet/render/hair_renderer.h"
 #include "ringlet/render/stretch_colours.h"
-#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/load/load_scene.h"
 #include "ringlet/solver/compute_device.h"
 
 namespace ringlet {

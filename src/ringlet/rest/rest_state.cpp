@@ -204,10 +204,8 @@ layout::StrandRest strandRest(const Cut& cut, std::span<const Vec3d> coreEdges, 
   rest.jacobiGap = static_cast<float>(jacobiGap(cut, settings));
   rest.firstEdge = packed3(cut.edges[0]);
   rest.massUnit = static_cast<float>(cut.massUnit);
-  for (std::size_t k = 0; k < layout::kMaxRootCount; ++k) {
-    const layout::vec3 pin = packed3(cut.points[std::min(k, cut.points.size() - 1)]);
-    rest.pins[k] = {pin.x, pin.y, pin.z, 0};
-  }
+  for (std::size_t k = 0; k < layout::kMaxRootCount; ++k)
+    rest.roots[k] = {packed3(cut.points[std::min(k, cut.points.size() - 1)]), 0};
   return rest;
 }
 

@@ -1,5 +1,5 @@
 // RestVolume: the particles that meet others as a volume, with their masses and their densities at rest, for
-// solver/volume_stage.h. Mirrored by reference/kernels/volume_step.h.
+// solver/contacts/volume_stage.h. Mirrored by reference/kernels/volume_step.h.
 #pragma once
 
 #include <cstdint>

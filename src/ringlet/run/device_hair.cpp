@@ -40,6 +40,7 @@ class DeviceHair : public SceneHair {
   HairTimes times() const override {
     return {simulation_.stageMilliseconds(), simulation_.hostMilliseconds()};
   }
+  std::vector<StageSpan> frameStages() const override { return simulation_.frameStages(); }
   // The validation layer's messages too, where it is on.
   HairFacts facts() const override {
     HairFacts facts{.device = device_.name(),

@@ -20,8 +20,9 @@
 #include "ringlet/run/run_folder.h"
 #include "ringlet/run/run_writers.h"
 #include "ringlet/run/stepper.h"
+#include "ringlet/run/trace_file.h"
 #include "ringlet/run/writer_thread.h"
-#include "ringlet/scenes/scene_frames.h"
+#include "ringlet/scenes/frames/scene_frames.h"
 #include "ringlet/version.h"
 
 namespace ringlet {
@@ -108,6 +109,7 @@ class Run::Work {
   RunCheckpoints checkpoints_;
   std::unique_ptr<SceneHair> hair_;
   std::optional<Stepper> stepper_;
+  std::optional<TraceFile> trace_;
   std::optional<RunWriters> writers_;
   std::optional<BodyWatch> bodyWatch_;
   int frame_ = 0;                          // the next
@@ -160,6 +162,11 @@ Status Run::Work::openHair(const HairMaker& makeHair) {
       if (Status written = checkpoints_.write(0, {}, {}); !written) return written;
     }
     if (Status rolled = preRoll(); !rolled) return rolled;
+  }
+  if (!options_.trace.empty()) {
+    auto trace = TraceFile::create(options_.trace);
+    if (!trace) return trace.error();
+    trace_.emplace(std::move(*trace));
   }
   timesBefore_ = hair_->times();
   auto stepper = Stepper::make(*hair_, scene_, options_.measuresContacts);
@@ -279,6 +286,7 @@ Status Run::Work::finishFrames() {
     if (Status saved = saveAt(frame_); !saved) return saved;
   }
   Status written = finishWriting();
+  if (trace_ && written) written = trace_->finish();
   tellProgress();
   lastFrame_ = Clock::now();
   return written;
@@ -300,6 +308,7 @@ Status Run::Work::takeUnderWay() {
   const Status waited = stepper_->wait();
   tellFirstFrame();
   if (!waited) return afterWritten(waited.error());
+  if (trace_) trace_->addFrame(frame.number, hair_->frameStages());
   {
     Stopwatch watch(readbackTime_);
     frame.positions = stepper_->framePositions(sink_->takeRoom());

@@ -14,7 +14,7 @@
 #include "ringlet/run/run_outcome.h"
 #include "ringlet/run/scene_hair.h"
 #include "ringlet/scene/head_pose.h"
-#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/load/load_scene.h"
 
 namespace ringlet {
 

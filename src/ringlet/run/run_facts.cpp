@@ -19,7 +19,7 @@
 #include "ringlet/output/animation_writer.h"
 #include "ringlet/rest/material_file.h"
 #include "ringlet/run/run_folder.h"
-#include "ringlet/scenes/scene_paths.h"
+#include "ringlet/scenes/load/scene_paths.h"
 
 namespace ringlet {
 namespace {

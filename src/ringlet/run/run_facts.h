@@ -10,7 +10,7 @@
 #include "ringlet/output/checkpoint_file.h"
 #include "ringlet/rest/material.h"
 #include "ringlet/run/run_options.h"
-#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/file/scene_file.h"
 
 namespace ringlet {
 

@@ -16,8 +16,8 @@
 #include "ringlet/output/sheet.h"
 #include "ringlet/pictures/full_hair.h"
 #include "ringlet/run/run_options.h"
-#include "ringlet/scenes/cut_list.h"
-#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/frames/cut_list.h"
+#include "ringlet/scenes/load/load_scene.h"
 
 namespace ringlet {
 

@@ -14,8 +14,8 @@
 
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
-#include "ringlet/scenes/load_scene.h"
-#include "ringlet/scenes/scene_frames.h"
+#include "ringlet/scenes/frames/scene_frames.h"
+#include "ringlet/scenes/load/load_scene.h"
 #include "ringlet/solver/simulation.h"
 
 namespace ringlet {
@@ -61,6 +61,8 @@ class SceneHair {
   virtual Status restore(const SceneFrames& frames, int frame, std::span<const std::byte> checkpoint) = 0;
   virtual Result<HairReports> reports() = 0;
   virtual HairTimes times() const = 0;
+  /// The dispatches of the frame waited for last, on one device; none elsewhere.
+  virtual std::vector<StageSpan> frameStages() const { return {}; }
   /// Whether times() may be asked for after every frame; not where that is a message.
   virtual bool tellsTimesOfFrames() const { return true; }
   virtual HairFacts facts() const = 0;

@@ -8,8 +8,8 @@
 #pragma once
 
 #include "ringlet/base/result.h"
-#include "ringlet/scenes/load_scene.h"
-#include "ringlet/scenes/scene_frames.h"
+#include "ringlet/scenes/frames/scene_frames.h"
+#include "ringlet/scenes/load/load_scene.h"
 #include "ringlet/solver/compute_device.h"
 #include "ringlet/solver/hair_asset.h"
 #include "ringlet/solver/kernel_choice.h"

@@ -10,7 +10,7 @@
 
 #include "ringlet/base/whole_file.h"
 #include "ringlet/run/scene_run.h"
-#include "ringlet/scenes/scene_frames.h"
+#include "ringlet/scenes/frames/scene_frames.h"
 #include "ringlet/solver/simulation.h"
 
 namespace ringlet {

@@ -6,7 +6,7 @@
 
 #include "ringlet/base/result.h"
 #include "ringlet/run/device_hair.h"
-#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/load/load_scene.h"
 
 namespace ringlet {
 

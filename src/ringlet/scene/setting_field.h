@@ -1,6 +1,6 @@
 // SettingField: the description of a setting: its member, name, type, unit, range, default and effect.
 // Scene files, options, checks and lists go through tables of these (settings_fields.h,
-// scenes/scene_fields.h).
+// scenes/file/scene_fields.h).
 #pragma once
 
 #include <cstdint>

@@ -14,9 +14,9 @@
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/material_presets.h"
 #include "ringlet/rest/rest_state.h"
-#include "ringlet/scenes/idle_dials.h"
+#include "ringlet/scenes/load/idle_dials.h"
+#include "ringlet/scenes/load/scene_parts.h"
 #include "ringlet/scenes/scene_grooms.h"
-#include "ringlet/scenes/scene_parts.h"
 
 namespace ringlet {
 namespace {

@@ -10,7 +10,7 @@
 #include "ringlet/base/result.h"
 #include "ringlet/rest/material_dials.h"
 #include "ringlet/scene/settings.h"
-#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/load/load_scene.h"
 
 namespace ringlet {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "ringlet/gpu/device.h"
-#include "ringlet/solver/strand_kernels.h"
-#include "ringlet/solver/subgroup_choice.h"
+#include "ringlet/solver/plan/subgroup_choice.h"
+#include "ringlet/solver/strands/strand_kernels.h"
 
 namespace ringlet {
 namespace {

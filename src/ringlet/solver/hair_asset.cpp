@@ -8,11 +8,11 @@
 #include "layout/strands.h"
 #include "ringlet/rest/rest_part.h"
 #include "ringlet/rest/whole_rest.h"
-#include "ringlet/solver/dispatch_plan.h"
 #include "ringlet/solver/hair_asset_implementation.h"
 #include "ringlet/solver/part_link.h"
-#include "ringlet/solver/strand_kernels.h"
-#include "ringlet/solver/subgroup_choice.h"
+#include "ringlet/solver/plan/dispatch_plan.h"
+#include "ringlet/solver/plan/subgroup_choice.h"
+#include "ringlet/solver/strands/strand_kernels.h"
 
 namespace ringlet {
 namespace {

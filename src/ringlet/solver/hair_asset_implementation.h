@@ -11,12 +11,12 @@
 #include "ringlet/rest/rest_halo.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/rest/rest_volume.h"
-#include "ringlet/solver/device_groom.h"
-#include "ringlet/solver/frame_readback.h"
-#include "ringlet/solver/groom_chunks.h"
 #include "ringlet/solver/hair_asset.h"
-#include "ringlet/solver/head_places.h"
-#include "ringlet/solver/shape_plan.h"
+#include "ringlet/solver/inputs/head_places.h"
+#include "ringlet/solver/plan/groom_chunks.h"
+#include "ringlet/solver/plan/shape_plan.h"
+#include "ringlet/solver/strands/device_groom.h"
+#include "ringlet/solver/strands/frame_readback.h"
 
 namespace ringlet {
 

@@ -57,6 +57,7 @@ struct KernelChoice {
   bool goals = false;        // places that particles are pulled to (Simulation::setGoals)
   bool fields = false;       // fields of force and moving air (Simulation::setFields)
   bool taps = false;         // write every intermediate of the last step (Simulation::tap); slower, for tests
+                             // (RINGLET_BUILD_TAPS)
   // Approximate longest device time of a submission [s]: a desktop resets a device that works too long. 0:
   // 0.3, and no limit on a CPU device.
   double longestSubmissionSeconds = 0;

@@ -17,8 +17,8 @@
 #include "ringlet/base/packed.h"
 #include "ringlet/gpu/device_buffers.h"
 #include "ringlet/rest/rest_contacts.h"
-#include "ringlet/solver/contact_momentum.h"
-#include "ringlet/solver/groom_chunks.h"
+#include "ringlet/solver/contacts/contact_momentum.h"
+#include "ringlet/solver/plan/groom_chunks.h"
 #include "ringlet/solver/simulation_implementation.h"
 
 namespace ringlet {
@@ -38,7 +38,8 @@ std::vector<layout::StrandRest> shiftedStrands(const RestState& rest, std::span<
   std::vector<layout::StrandRest> strands = rest.strands;
   for (std::size_t s = 0; s < strands.size(); ++s) {
     const Vec3f shift = static_cast<Vec3f>(shifts[rest.strandInGroom[s]]);
-    strands[s].pins[0].w = shift.x, strands[s].pins[1].w = shift.y, strands[s].pins[2].w = shift.z;
+    layout::RootRest* roots = strands[s].roots;
+    roots[0].shift = shift.x, roots[1].shift = shift.y, roots[2].shift = shift.z;
   }
   return strands;
 }
@@ -464,6 +465,16 @@ const std::vector<std::string>& Simulation::warnings() const { return self_->war
 std::map<std::string, double> Simulation::stageMilliseconds() const {
   std::map<std::string, double> all = self_->stageMilliseconds;
   return all;
+}
+
+std::vector<StageSpan> Simulation::frameStages() const {
+  const gpu::Recorder& recorder = self_->waitedSlot().recorder;
+  std::vector<StageSpan> spans;
+  for (std::size_t i = 0; i < recorder.stageStarts().size(); ++i) {
+    const auto& [stage, milliseconds] = recorder.stageMilliseconds()[i];
+    spans.push_back({stage, recorder.stageStarts()[i], milliseconds});
+  }
+  return spans;
 }
 
 HostMilliseconds Simulation::hostMilliseconds() const { return self_->hostMilliseconds; }

@@ -166,6 +166,13 @@ struct ListedContact {
 /// Stage of the copy of positions to the host, which is no stepping.
 inline constexpr const char* kCopyStage = "copy_out";
 
+/// What a frame spent on one dispatch, or one copy.
+struct StageSpan {
+  std::string stage;
+  double begin = 0;  // on the device's clock, from any zero; without timestamps from the submission on [ms]
+  double milliseconds = 0;  // as stageMilliseconds counts them
+};
+
 /// What the host spent on the device [ms].
 struct HostMilliseconds {
   double submit = 0;  // handing frames to it, and recording them where they are new
@@ -320,6 +327,8 @@ class Simulation {
   /// Milliseconds spent on the device, by stage, summed over all frames waited for; by GPU timestamps where
   /// the device has them, and then with kCopyStage.
   std::map<std::string, double> stageMilliseconds() const;
+  /// The dispatches of the frame waited for last, in order; whenever framePositions may be asked.
+  std::vector<StageSpan> frameStages() const;
   /// What the host spent on the device, summed likewise.
   HostMilliseconds hostMilliseconds() const;
   /// Present sizes; a frame in flight may still enlarge contact lists. The driver may need a little more for

@@ -8,7 +8,7 @@
 #include "ringlet/base/assert.h"
 #include "ringlet/base/packed.h"
 #include "ringlet/solver/simulation_implementation.h"
-#include "ringlet/solver/strand_kernels.h"
+#include "ringlet/solver/strands/strand_kernels.h"
 
 namespace ringlet {
 

@@ -7,7 +7,7 @@
 
 #include "ringlet/gpu/device_buffers.h"
 #include "ringlet/solver/simulation_implementation.h"
-#include "ringlet/solver/strand_kernels.h"
+#include "ringlet/solver/strands/strand_kernels.h"
 
 namespace ringlet {
 namespace {

@@ -8,7 +8,7 @@
 #include "ringlet/scene/outside_numbers.h"
 #include "ringlet/scene/settings_fields.h"
 #include "ringlet/solver/simulation_implementation.h"
-#include "ringlet/solver/strand_kernels.h"
+#include "ringlet/solver/strands/strand_kernels.h"
 
 namespace ringlet {
 namespace {

@@ -18,7 +18,7 @@
 #include "ringlet/run/divided_hair.h"
 #include "ringlet/run/run.h"
 #include "ringlet/run/scene_run.h"
-#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/load/load_scene.h"
 #include "ringlet/solver/simulation.h"
 
 using namespace ringlet;

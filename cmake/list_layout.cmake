@@ -1,0 +1,23 @@
+# ringlet_list_layout(OUT): writes OUT, a row RINGLET_STRUCT(NAME, MEMBERS) for each struct of shaders/layout, each of its
+# members as RINGLET_MEMBER(NAME): what C++ knows of them, for layout_test.cpp.
+function(ringlet_list_layout out)
+  file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/shaders/layout/*.h)
+  set(rows)
+  foreach(header ${headers})
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${header})
+    file(READ ${header} text)
+    # Semicolons and brackets mean something in lists of CMake's.
+    string(REGEX REPLACE "//[^\n]*" "" text "${text}")
+    string(REGEX REPLACE "\\[[^]]*\\]" "" text "${text}")
+    string(REPLACE ";" "," text "${text}")
+    string(REGEX MATCHALL "\nstruct [A-Za-z]+ {[^}]*}" structs "${text}")
+    foreach(each IN LISTS structs)
+      string(REGEX REPLACE "^\nstruct ([A-Za-z]+).*" "\\1" name "${each}")
+      string(REGEX MATCHALL "\n  [A-Za-z0-9]+ [A-Za-z0-9]+," members "${each}")
+      list(TRANSFORM members REPLACE "\n  [A-Za-z0-9]+ ([A-Za-z0-9]+)," "RINGLET_MEMBER(\\1)")
+      list(JOIN members ", " members)
+      string(APPEND rows "RINGLET_STRUCT(${name}, ${members})\n")
+    endforeach()
+  endforeach()
+  file(CONFIGURE OUTPUT ${out} CONTENT "${rows}" @ONLY)
+endfunction()

@@ -1,0 +1,44 @@
+// CrateValues: what the values of a crate (.usdc) are: numbers, texts, time samples. Only those that are
+// asked for are decoded.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "ringlet/base/result.h"
+#include "ringlet/groom/usd/usd_layer.h"
+#include "ringlet/groom/usd/usdc_structure.h"
+
+namespace ringlet::usdc {
+
+class CrateValues {
+ public:
+  /// The structure, read, must live as long.
+  explicit CrateValues(const CrateStructure& crate) : crate_(crate) {}
+
+  /// Numbers or texts, of `mostElements` elements at most. All that is ever decoded is bounded by the size of
+  /// the file.
+  Result<UsdValue> valueOf(Rep rep, std::uint64_t mostElements = ~std::uint64_t{0});
+  Result<double> numberOf(Rep rep);
+  Result<std::string_view> nameOf(Rep rep);
+
+  /// The first of an attribute's samples; or, where `keepsPlaces`, where each of them is.
+  Status readSamples(Rep rep, std::uint64_t mostElements, bool keepsPlaces, UsdAttribute& attribute);
+
+  /// Whether a list of changes, a dictionary or a list of names holds something. What we do not know does.
+  bool isFilled(Rep rep) const;
+
+ private:
+  double numberAt(Kind kind, std::uint64_t at) const;
+  Result<Type> typeOf(Rep rep) const;
+  Status readInline(Rep rep, const Type& type, UsdValue& value);
+  void readNumbers(const Type& type, std::uint64_t at, std::size_t count, UsdValue& value) const;
+  Status readArray(Rep rep, const Type& type, std::uint64_t mostElements, UsdValue& value);
+  Result<std::uint64_t> placeAfter(std::uint64_t at) const;
+
+  const CrateStructure& crate_;
+  std::uint64_t numbersRead_ = 0;
+};
+
+}  // namespace ringlet::usdc

@@ -1,0 +1,349 @@
+// Implements solver/contacts/volume_stage.h.
+#include "ringlet/solver/contacts/volume_stage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <utility>
+
+#include "layout/contacts.h"
+#include "layout/strands.h"
+#include "layout/volume.h"
+#include "ringlet/gpu/device_buffers.h"
+
+namespace ringlet {
+namespace {
+
+// Limit of the grid's cells; hair that extends farther gets larger cells.
+constexpr std::uint64_t kMostCells = std::uint64_t{1} << 21;
+
+constexpr std::uint64_t kPerCellBlock = offsetof(layout::VolumeControl, indirectBlocks),
+                        kPerNode = offsetof(layout::VolumeControl, indirectNodes);
+
+std::uint32_t cellCapacity(std::uint64_t wanted) {
+  const std::uint64_t blocks = std::min(wanted + wanted / 500, kMostCells) / layout::kBucketBlock + 1;
+  return static_cast<std::uint32_t>(blocks * layout::kBucketBlock);
+}
+
+std::vector<layout::VolumeParticle> volumeParticles(const RestState& rest, const Settings& settings,
+                                                    const RestVolume& volume) {
+  std::vector<layout::VolumeParticle> particles;
+  for (std::size_t i = 0; i < volume.particles.size(); ++i) {
+    const layout::StrandRest& strand = rest.strands[volume.strands[i]];
+    const bool isPinned =
+        volume.particles[i] - strand.firstParticle < static_cast<std::uint32_t>(settings.rootCount);
+    particles.push_back({.particle = volume.particles[i],
+                         .mass = volume.masses[i],
+                         .ownDensity = volume.ownDensities[i],
+                         .inverseMassUnit = isPinned ? 0.0f : 1 / strand.massUnit});
+  }
+  return particles;
+}
+
+// The state of hair that was just placed.
+std::vector<layout::VolumeState> unknownStates(const std::vector<float>& densities) {
+  std::vector<layout::VolumeState> states(densities.size());
+  for (std::size_t i = 0; i < states.size(); ++i) states[i].density = densities[i];
+  return states;
+}
+
+layout::VolumeControl emptyControl() {
+  layout::VolumeControl control{};
+  for (int axis = 0; axis < 3; ++axis) control.least[axis] = 0x7fffffff, control.greatest[axis] = -0x7fffffff;
+  return control;
+}
+
+// Numbers of each node in the buffer of sums, of gather and of density (shared/volume_buffers.glsl).
+constexpr std::size_t kSumsOfNode = 8, kDensitiesOfNode = 2;
+
+std::uint32_t groupsOf(std::uint64_t particles) {
+  return static_cast<std::uint32_t>((particles + kVolumeGroupSize - 1) / kVolumeGroupSize);
+}
+
+}  // namespace
+
+Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& rest, const Settings& settings,
+                                        const RestVolume& volume, bool divided, DeviceGroom& groom,
+                                        double range) {
+  VolumeStage self;
+  self.isDivided_ = divided;
+  self.largestMass_ = volume.largestMass;
+  self.longestStrand_ = volume.longestStrand;
+  self.range_ = range;
+  self.groom_ = &groom;
+  self.densities_ = volume.densities;
+  const std::uint64_t count = volume.particles.size();
+  const std::uint32_t capacity = cellCapacity(volume.cells);
+  self.parameters_.count = static_cast<std::uint32_t>(count);
+  self.parameters_.cellCapacity = capacity;
+  self.parameters_.cell = static_cast<float>(volume.cell);
+  self.parameters_.warmth = static_cast<float>(kVolumeWarmth);
+  self.setSettings(settings);
+  if (groupsOf(count) > device.properties().maxGroupCount) {
+    return Error{fmt::format(
+        "{} particles that meet as a volume are more than the {} this device takes at once; switch contacts "
+        "off, or take a smaller groom",
+        count, std::uint64_t{device.properties().maxGroupCount} * kVolumeGroupSize)};
+  }
+  const std::uint64_t cellWords = 2 * std::uint64_t{capacity} + capacity / layout::kBucketBlock + 2 * count;
+  const std::uint64_t sumBytes =
+      divided ? (kSumsOfNode + kDensitiesOfNode) * capacity * sizeof(std::int32_t) : 0;
+  const std::uint64_t perParticle = sizeof(layout::VolumeParticle) + sizeof(layout::VolumeState) +
+                                    2 * sizeof(layout::vec4) + sizeof(layout::VolumeParcel);
+  const std::uint64_t needed =
+      count * perParticle + cellWords * sizeof(std::uint32_t) + capacity * sizeof(layout::vec4) + sumBytes;
+  if (Status status = checkMemory(fmt::format("{} particles as a volume", count), needed,
+                                  gpu::availableStorageBytes(device));
+      !status)
+    return status.error();
+
+  const std::uint64_t largest =
+      std::max({groom.largestTexels(), count * sizeof(layout::VolumeState), capacity * sizeof(layout::vec4),
+                cellWords * sizeof(std::uint32_t)});
+  const bool texels = isSeenAsTexels(device, std::max(largest, kLeastTexelBytes));
+  for (std::size_t k = 0; k < kVolumeKernelCount; ++k) {
+    const auto description =
+        describeVolumeKernel(static_cast<VolumeKernel>(k), texels, !device.properties().isCpu, divided);
+    if (!gpu::Kernel::isCompiled(device, description)) self.newKernels_.push_back(k);
+    auto kernel = gpu::Kernel::create(device, description);
+    if (!kernel) return kernel.error();
+    self.kernels_.push_back(std::move(*kernel));
+  }
+
+  auto particles = createFilled(device, volumeParticles(rest, settings, volume), "volume particles");
+  if (!particles) return particles.error();
+  auto states = createFilled(device, unknownStates(volume.densities), "volume states");
+  if (!states) return states.error();
+  auto brought = createZero(device, count * sizeof(layout::vec4), "volume brought");
+  if (!brought) return brought.error();
+  auto sums = gpu::Buffer::create(device, sumBytes, gpu::BufferKind::stream, "volume sums");
+  if (!sums) return sums.error();
+  auto located = createZero(device, count * sizeof(layout::vec4), "volume located");
+  if (!located) return located.error();
+  auto cells = createZero(device, cellWords * sizeof(std::uint32_t), "volume cells");
+  if (!cells) return cells.error();
+  auto parcels = createZero(device, count * sizeof(layout::VolumeParcel), "volume parcels");
+  if (!parcels) return parcels.error();
+  auto nodes = createZero(device, capacity * sizeof(layout::vec4), "volume nodes");
+  if (!nodes) return nodes.error();
+  auto control = createZero(device, sizeof(layout::VolumeControl), "volume control");
+  if (!control) return control.error();
+  auto controlRead = gpu::Buffer::create(device, sizeof(layout::VolumeControl), gpu::BufferKind::stream,
+                                         "volume control read back");
+  if (!controlRead) return controlRead.error();
+  self.buffers_.emplace(Buffers{std::move(*particles), std::move(*states), std::move(*brought),
+                                std::move(*cells), std::move(*parcels), std::move(*nodes),
+                                std::move(*control), std::move(*located), std::move(*sums),
+                                std::move(*controlRead)});
+  if (Status status = self.forget(); !status) return status.error();
+  for (const auto& kernel : self.kernels_) {
+    auto bindings = gpu::Bindings::create(*kernel, self.bufferTable());
+    if (!bindings) return bindings.error();
+    self.bindings_.push_back(std::move(*bindings));
+  }
+  return self;
+}
+
+std::uint64_t VolumeStage::bytes() const {
+  const Buffers& b = *buffers_;
+  return b.particles.bytes() + b.states.bytes() + b.brought.bytes() + b.located.bytes() + b.cells.bytes() +
+         b.parcels.bytes() + b.nodes.bytes() + b.control.bytes() + b.sums.bytes() + b.controlRead.bytes();
+}
+
+gpu::BufferTable VolumeStage::bufferTable() const {
+  using namespace layout;
+  const auto& [particles, states, brought, cells, parcels, nodes, control, located, sums, controlRead] =
+      *buffers_;
+  const DeviceChunk& hair = groom_->chunks[0];
+  return {{kBindVolumePositions, hair.positions},
+          {kBindVolumeVelocities, hair.velocities},
+          {kBindVolumeSolved, hair.solved},
+          {kBindVolumePoses, groom_->poses.seen()},
+          {kBindVolumeParticles, particles},
+          {kBindVolumeStates, states},
+          {kBindVolumeBrought, brought},
+          {kBindVolumeCells, cells},
+          {kBindVolumeParcels, parcels},
+          {kBindVolumeNodes, nodes},
+          {kBindVolumeAdded, hair.addedByVolume},
+          {kBindVolumeControl, control},
+          {kBindVolumeHalt, groom_->contactControl},
+          {kBindVolumeLocated, located},
+          {kBindVolumeSums, sums},
+          {kBindVolumeLocatedTexels, located},
+          {kBindVolumeCellTexels, cells},
+          {kBindVolumePositionTexels, hair.positions},
+          {kBindVolumeVelocityTexels, hair.velocities},
+          {kBindVolumeSolvedTexels, hair.solved},
+          {kBindVolumeParticleTexels, particles},
+          {kBindVolumeStateTexels, states},
+          {kBindVolumeBroughtTexels, brought},
+          {kBindVolumeParcelTexels, parcels},
+          {kBindVolumeNodeTexels, nodes},
+          {kBindVolumeAddedTexels, hair.addedByVolume}};
+}
+
+Status VolumeStage::release(std::span<const std::uint32_t> particles) {
+  auto all = downloadAll<layout::VolumeParticle>(buffers_->particles, parameters_.count);
+  if (!all) return all.error();
+  for (layout::VolumeParticle& each : *all)
+    if (std::ranges::binary_search(particles, each.particle)) each.mass = 0;
+  return buffers_->particles.upload(std::as_bytes(std::span(*all)));
+}
+
+void VolumeStage::setSettings(const Settings& settings) {
+  const double T = settings.stepSeconds();
+  sorts_.setStep(T);
+  parameters_.seconds = static_cast<float>(T);
+  parameters_.drag = static_cast<float>(settings.contacts.volumeDrag);
+  parameters_.stiffness = static_cast<float>(settings.contacts.volumeStiffness);
+  parameters_.kept = static_cast<float>(std::exp(-T / settings.contacts.volumeMemorySeconds));
+  // A term of the sums has kVolumeUnits at most. Without drag and stiffness there are none.
+  constexpr auto kUnits = static_cast<double>(layout::kVolumeUnits);
+  const double gain = T * (settings.contacts.volumeDrag + T * settings.contacts.volumeStiffness);
+  const double longest = std::min(settings.maxStretch, kVolumeMostStretch) * longestStrand_;
+  parameters_.mostRate = static_cast<float>(range_ * settings.contacts.volumeMostRate(T, longest));
+  parameters_.unitsPerMass = static_cast<float>(kUnits / largestMass_);
+  parameters_.unitsPerGain = gain > 0 ? static_cast<float>(kUnits / (largestMass_ * gain)) : 0.0f;
+}
+
+layout::VolumeParameters VolumeStage::parameters(std::uint32_t step) const {
+  layout::VolumeParameters parameters = parameters_;
+  parameters.step = step;
+  parameters.sorts = sorts(step) ? 1 : 0;
+  return parameters;
+}
+void VolumeStage::dispatch(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step,
+                           std::uint32_t groups) const {
+  const auto at = static_cast<std::size_t>(kernel);
+  list.dispatch(*kernels_[at], bindings_[at], parameters(step), groups);
+}
+void VolumeStage::dispatchIndirect(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step,
+                                   std::uint64_t offset) const {
+  const auto at = static_cast<std::size_t>(kernel);
+  list.dispatchIndirect(*kernels_[at], bindings_[at], parameters(step), buffers_->control, offset);
+}
+
+void VolumeStage::recordNothing(gpu::CommandList& list) const {
+  for (const std::size_t k : newKernels_) list.dispatchNothing(*kernels_[k], bindings_[k]);
+}
+
+void VolumeStage::dispatchParticles(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step) const {
+  const std::uint32_t groups = groupsOf(parameters_.count);
+  if (groups > 0) dispatch(list, kernel, step, groups);
+}
+
+void VolumeStage::recordBrought(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step,
+                                bool isFirst) const {
+  pace.beginStage(list, isFirst ? "volume_begin" : "volume_bring");
+  dispatchParticles(list, isFirst ? VolumeKernel::begin : VolumeKernel::bring, step);
+  list.endStage();
+}
+
+void VolumeStage::recordSort(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const {
+  using enum VolumeKernel;
+  pace.beginStage(list, "volume_sort");
+  dispatch(list, box, step, 1);
+  list.barrier();
+  dispatchParticles(list, count, step);
+  list.barrier();
+  dispatchIndirect(list, scan, step, kPerCellBlock);
+  list.barrier();
+  dispatchIndirect(list, start, step, kPerCellBlock);
+  list.barrier();
+  dispatchParticles(list, place, step);
+  list.barrier();
+  dispatchIndirect(list, density, step, kPerNode);
+  list.endStage();
+}
+
+void VolumeStage::recordSums(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const {
+  pace.beginStage(list, "volume_gather");
+  dispatchIndirect(list, VolumeKernel::gather, step, kPerNode);
+  list.endStage();
+}
+
+void VolumeStage::recordMeans(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const {
+  pace.beginStage(list, "volume_spread");
+  if (isDivided_) {
+    dispatchIndirect(list, VolumeKernel::mean, step, kPerNode);
+    list.barrier();
+  }
+  dispatchParticles(list, VolumeKernel::spread, step);
+  list.endStage();
+}
+
+void VolumeStage::recordControl(gpu::CommandList& list) const {
+  list.copyBuffer(buffers_->control, buffers_->controlRead, sizeof(layout::VolumeControl));
+}
+void VolumeStage::recordReach(gpu::CommandList& list) const {
+  for (const std::size_t at :
+       {offsetof(layout::VolumeControl, least), offsetof(layout::VolumeControl, greatest)})
+    list.copyBuffer(buffers_->controlRead, buffers_->control, 3 * sizeof(std::int32_t), at, at);
+}
+
+layout::VolumeControl& VolumeStage::hostControl() const {
+  return *reinterpret_cast<layout::VolumeControl*>(buffers_->controlRead.mapped().data());
+}
+
+std::array<std::int32_t, 6> VolumeStage::reach() const {
+  const layout::VolumeControl& c = hostControl();
+  return {-c.least[0], -c.least[1], -c.least[2], c.greatest[0], c.greatest[1], c.greatest[2]};
+}
+void VolumeStage::setReach(const std::array<std::int32_t, 6>& reach) {
+  layout::VolumeControl& c = hostControl();
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    c.least[axis] = -reach[axis], c.greatest[axis] = reach[axis + 3];
+}
+
+std::span<std::uint32_t> VolumeStage::sums() {
+  auto* all = reinterpret_cast<std::uint32_t*>(buffers_->sums.mapped().data());
+  return {all, kSumsOfNode * hostControl().cellCount};
+}
+std::span<std::uint32_t> VolumeStage::densities() {
+  auto* all = reinterpret_cast<std::uint32_t*>(buffers_->sums.mapped().data());
+  return {all + kSumsOfNode * parameters_.cellCapacity, kDensitiesOfNode * hostControl().cellCount};
+}
+
+Status VolumeStage::forget() {
+  sorts_.forget();
+  const std::vector<layout::VolumeState> states = unknownStates(densities_);
+  if (Status status = buffers_->states.upload(std::as_bytes(std::span(states))); !status) return status;
+  const auto before = downloadAll<layout::VolumeControl>(buffers_->control, 1);
+  if (!before) return before.error();
+  layout::VolumeControl control = emptyControl();
+  control.cut = before->front().cut, control.largest = before->front().largest;
+  control.largestCell = before->front().largestCell;
+  return buffers_->control.upload(std::as_bytes(std::span(&control, 1)));
+}
+
+Result<VolumeReach> VolumeStage::reached() const {
+  const auto control = downloadAll<layout::VolumeControl>(buffers_->control, 1);
+  if (!control) return control.error();
+  return VolumeReach{control->front().cut, double{std::bit_cast<float>(control->front().largest)},
+                     double{control->front().largestCell} / double{parameters_.cell}};
+}
+
+Status VolumeStage::archive(Archive& archive) {
+  Buffers& b = *buffers_;
+  auto control = downloadAll<layout::VolumeControl>(b.control, 1);
+  if (!control) return control.error();
+  archive.value(control->front());
+  sorts_.archive(archive);
+  if (archive.isShort()) return {};
+  if (archive.isReading()) {
+    if (Status status = b.control.upload(std::as_bytes(std::span(*control))); !status) return status;
+  }
+  std::vector<gpu::Buffer*> kept{&b.states};
+  if (sorts_.isBetweenSorts()) kept.insert(kept.end(), {&b.cells, &b.parcels, &b.located, &b.nodes});
+  for (gpu::Buffer* buffer : kept) {
+    if (Status status = archiveBuffer(archive, *buffer); !status) return status;
+  }
+  return {};
+}
+
+}  // namespace ringlet

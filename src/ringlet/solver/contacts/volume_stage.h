@@ -1,0 +1,127 @@
+// VolumeStage: strands that meet as a volume, on one device, between the strand kernel's solves
+// (shaders/equations/volume.glsl). rest/volume_strands.h chooses these strands. Mirrored by
+// reference/kernels/volume_step.h.
+//
+//   v^0 of all strands ->  brought: displacements, guesses; particles by cell
+//                      ->  means: to the grid's nodes and back                 -> solve -> v^1
+//                      ->  brought by v^1, means                               -> solve -> v^2 ... -> move
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "layout/volume.h"
+#include "ringlet/base/archive.h"
+#include "ringlet/base/result.h"
+#include "ringlet/gpu/buffer.h"
+#include "ringlet/gpu/command_list.h"
+#include "ringlet/gpu/kernel.h"
+#include "ringlet/rest/rest_volume.h"
+#include "ringlet/scene/settings.h"
+#include "ringlet/solver/contacts/volume_kernels.h"
+#include "ringlet/solver/contacts/volume_sorts.h"
+#include "ringlet/solver/plan/submission_pace.h"
+#include "ringlet/solver/strands/device_groom.h"
+
+namespace ringlet {
+
+/// What the volume had room for, since the simulation began: how often a particle's a was cut, the largest
+/// component of a as a share of ContactSettings::volumeMostRate, and the largest cell as a multiple of
+/// that asked for.
+struct VolumeReach {
+  std::uint32_t cut = 0;
+  double largest = 0, coarsest = 0;
+};
+
+class VolumeStage {
+ public:
+  /// Fails, with the numbers and what to do, where the device lacks memory. `groom` is of one chunk, and must
+  /// live as long, in one place.
+  /// divided: other devices step other strands of the volume, which `volume` lacks. range: as
+  /// KernelChoice::volumeRange.
+  static Result<VolumeStage> create(gpu::Device& device, const RestState& rest, const Settings& settings,
+                                    const RestVolume& volume, bool divided, DeviceGroom& groom, double range);
+
+  /// Number of kernels that no other simulation on this device had made before.
+  std::size_t newKernelCount() const { return newKernels_.size(); }
+  /// Dispatches these without work, so that the driver compiles them before they are needed.
+  void recordNothing(gpu::CommandList& list) const;
+
+  /// Before a frame of so many steps is recorded or submitted. `untilSort`: steps of it before the first that
+  /// sorts; recordings of frames that differ in it differ.
+  void beginFrame(std::uint32_t steps) { sorts_.beginFrame(steps); }
+  std::uint32_t untilSort() const { return sorts_.until(); }
+
+  /// Records the parts of a step, in order. The caller records the barriers before and after each. The
+  /// kernels do nothing if contacts of pairs have halted. Contributions of the particles in an iteration, the
+  /// first of a step or a later one.
+  void recordBrought(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step, bool isFirst) const;
+  /// In a step that sorts, once. In each iteration, the sums of contributions at the grid's nodes, and what
+  /// the means give the particles.
+  bool sorts(std::uint32_t step) const { return sorts_.sorts(step); }
+  void recordSort(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
+  void recordSums(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
+  void recordMeans(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
+
+  /// If strands are divided: records the control's way to the host, at the end of every submission, and that
+  /// of the reach back, before recordSort.
+  void recordControl(gpu::CommandList& list) const;
+  void recordReach(gpu::CommandList& list) const;
+  /// Between submissions. After recordBrought of a step's first iteration: the cells that particles here are
+  /// in, {-least, greatest}, to be replaced by the largest of all devices before recordReach.
+  std::array<std::int32_t, 6> reach() const;
+  void setReach(const std::array<std::int32_t, 6>& reach);
+  /// After recordSums: the sums, to be replaced by those over all devices before recordMeans; after
+  /// recordSort those of densities too.
+  std::span<std::uint32_t> sums();
+  std::span<std::uint32_t> densities();
+
+  /// These particles of the groom, by device index, ascending, are of the volume no more: they have fallen.
+  Status release(std::span<const std::uint32_t> particles);
+  /// Changes the live settings. Invalidates earlier recordings.
+  void setSettings(const Settings& settings);
+  /// Clears displacements, after the hair was moved to another state.
+  Status forget();
+  /// Archives the state that the next step depends on besides positions, velocities and the result of the
+  /// last solve.
+  Status archive(Archive& archive);
+
+  /// Whether the sums had room for what particles contributed, since the simulation began.
+  Result<VolumeReach> reached() const;
+
+  std::uint64_t bytes() const;
+  /// What its kernels see.
+  gpu::BufferTable bufferTable() const;
+
+ private:
+  struct Buffers {
+    gpu::Buffer particles, states, brought, cells, parcels, nodes, control, located, sums, controlRead;
+  };
+  VolumeStage() = default;
+  layout::VolumeParameters parameters(std::uint32_t step) const;
+  void dispatch(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step, std::uint32_t groups) const;
+  void dispatchParticles(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step) const;
+  void dispatchIndirect(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step,
+                        std::uint64_t offset) const;
+  layout::VolumeControl& hostControl() const;
+
+  std::vector<std::shared_ptr<const gpu::Kernel>> kernels_;  // by VolumeKernel
+  std::vector<std::size_t> newKernels_;
+  std::vector<gpu::Bindings> bindings_;  // likewise
+  DeviceGroom* groom_ = nullptr;
+  std::optional<Buffers> buffers_;
+  std::vector<float> densities_;  // at rest
+  layout::VolumeParameters parameters_{};
+  float largestMass_ = 0;
+  VolumeSorts sorts_{};
+  double longestStrand_ = 0;  // as RestVolume's
+  double range_ = 1;          // KernelChoice::volumeRange
+  bool isDivided_ = false;
+};
+
+}  // namespace ringlet

@@ -1,0 +1,161 @@
+// Implements solver/plan/dispatch_plan.h.
+#include "ringlet/solver/plan/dispatch_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "layout/strands.h"
+
+namespace ringlet {
+namespace {
+
+// Loop turns of a dispatch: a little fewer than those after which such a device ends loops. Other devices
+// have no such limit; theirs keeps a dispatch so short that it does not pass for a hang.
+std::uint64_t loopBudget(const DeviceLimits& limits) { return limits.endsLoopsEarly ? 65000 : 4'000'000; }
+
+// Upper bounds of loop turns.
+struct LoopCost {
+  std::uint64_t step = 0;  // of a step, but for its solve loops
+  std::uint64_t perSolveLoop = 0;
+  std::uint64_t solveLoops = 0;  // of a step
+  std::uint64_t pressed = 0;     // in addition, of a step in which a whole strand is pressed onto bodies
+};
+
+// Turns of a scan over lanes and of its squarings over the bits of the run; one lane needs none.
+std::uint64_t scanCost(const StrandShape& shape) {
+  return shape.lanes == 1 ? 0 : std::countr_zero(shape.lanes) + std::bit_width(shape.particlesPerLane) + 2;
+}
+
+LoopCost loopCost(const StrandRange& range, const Settings& settings, std::size_t bodyCount) {
+  // Loops over a run count in full, although drivers unroll them in registers; lavapipe counts one turn more.
+  const bool inMemory = range.shape.inMemory;
+  const std::uint64_t run = range.shape.particlesPerLane + (inMemory ? 1 : 8);
+  LoopCost cost;
+  // Sweeps over the run. In memory these include 12 over waves of turbulent wind and, with bodies, those of
+  // two more solves and of one round after the move.
+  const std::uint64_t sweeps = inMemory ? 24 + (settings.air.on ? 14 : 0) + (bodyCount > 0 ? 20 : 0) : 20;
+  // A body near the run costs, in registers, up to 17 evaluations per particle and per edge, and the same in
+  // each of eight rounds after the move; a run is never near more than four bodies. In memory runs are long,
+  // and rarely all of their particles are at the body. If they are, the other seven rounds take 45 more
+  // sweeps, and each body takes 42 turns per particle in the solve and 24 in every round.
+  const std::uint64_t inTheWay = std::min<std::uint64_t>(bodyCount, 4);
+  cost.step = sweeps * run + inTheWay * run * (inMemory ? 24 : 178) + 30 * bodyCount;
+  // Four scans with squarings, and up to twelve others.
+  if (inMemory) cost.step += 10 * scanCost(range.shape) * (bodyCount > 0 ? 2 : 1);
+  if (inMemory && bodyCount > 0) cost.pressed = run * (45 + inTheWay * (42 + 8 * 24));
+  if (settings.integrator == Integrator::pointJacobi) {
+    cost.solveLoops = settings.pointIterations;
+    cost.perSolveLoop = run + 1;
+  }
+  if (settings.integrator == Integrator::paper) {
+    cost.solveLoops = settings.forceLoops;
+    const std::uint64_t damping =
+        range.shape.lanes == 1 ? 3 * run + 1 : 4 * run + 1 + 2 * scanCost(range.shape);
+    cost.perSolveLoop = run + 1 + settings.dampingLoops * damping;
+  }
+  return cost;
+}
+
+Error tooLong(const StrandRange& range, const Settings& settings, std::uint64_t turns, std::uint64_t budget) {
+  const char* remedy = settings.integrator == Integrator::jacobi
+                           ? "cut the strand into fewer particles, or use a GPU or the reference"
+                       : range.shape.serial()
+                           ? "use more lanes, the jacobi integrator or fewer iterations"
+                           : "use the jacobi integrator, fewer iterations or the reference";
+  return Error{fmt::format(
+      "a strand of {} particles needs {} loop turns for one step of this integrator, and this device makes "
+      "{} in a dispatch at most; {}",
+      range.longest, turns, budget, remedy)};
+}
+
+// Cuts a frame's steps for one range into pieces within the budget, each of as many steps as fit.
+Result<std::vector<PlannedDispatch>> planSteps(const StrandRange& range, const DeviceLimits& limits,
+                                               const Settings& settings, std::size_t bodyCount,
+                                               std::uint64_t mostParticleSteps) {
+  const std::uint64_t budget = loopBudget(limits);
+  const LoopCost cost = loopCost(range, settings, bodyCount);
+  const std::uint64_t whole = cost.step + cost.solveLoops * cost.perSolveLoop;
+  const std::uint32_t steps = static_cast<std::uint32_t>(settings.stepsPerFrame);
+  if (whole > budget) return tooLong(range, settings, whole, budget);
+  // If a single step may exceed the budget, each piece is one step.
+  const std::uint64_t stepsThatFit = std::max<std::uint64_t>(1, budget / (whole + cost.pressed));
+  const std::uint64_t particles = std::uint64_t{range.end - range.begin} * range.longest;
+  const std::uint64_t bound =
+      std::min(stepsThatFit, std::max<std::uint64_t>(1, mostParticleSteps / particles));
+  const auto stepsAtOnce = static_cast<std::uint32_t>(std::min<std::uint64_t>(bound, steps));
+  std::vector<PlannedDispatch> pieces;
+  for (std::uint32_t s = 0; s < steps; s += stepsAtOnce)
+    pieces.push_back({.stepBegin = s, .stepEnd = std::min(steps, s + stepsAtOnce)});
+  return pieces;
+}
+
+// The pieces of a range, each of as many strands as the device has groups and `mostParticleSteps` allows.
+void spreadOverGroups(std::vector<PlannedDispatch>& plan, const StrandRange& range, std::uint32_t index,
+                      const DeviceLimits& limits, std::uint32_t groupSize,
+                      std::span<const PlannedDispatch> pieces, std::uint64_t mostParticleSteps) {
+  const std::uint32_t strandsPerGroup = groupSize / range.shape.lanes;
+  const std::uint64_t groups = mostParticleSteps / (std::uint64_t{strandsPerGroup} * range.longest);
+  const std::uint64_t strandsAtOnce =
+      strandsPerGroup * std::clamp<std::uint64_t>(groups, 1, limits.maxGroupCount);
+  for (std::uint64_t begin = range.begin; begin < range.end; begin += strandsAtOnce) {
+    for (PlannedDispatch piece : pieces) {
+      piece.range = index;
+      piece.strandBegin = static_cast<std::uint32_t>(begin);
+      piece.strandEnd = static_cast<std::uint32_t>(std::min<std::uint64_t>(range.end, begin + strandsAtOnce));
+      piece.groupCount = groupCountOf(piece, range.shape, groupSize);
+      plan.push_back(piece);
+    }
+  }
+}
+
+}  // namespace
+
+std::uint32_t groupCountOf(const PlannedDispatch& dispatch, const StrandShape& shape, std::uint32_t groupSize,
+                           std::uint32_t heads) {
+  const std::uint32_t strandsPerGroup = groupSize / shape.lanes;
+  return (heads * (dispatch.strandEnd - dispatch.strandBegin) + strandsPerGroup - 1) / strandsPerGroup;
+}
+
+std::uint64_t particleStepsOf(const PlannedDispatch& dispatch, std::span<const StrandRange> ranges) {
+  return std::uint64_t{dispatch.strandEnd - dispatch.strandBegin} * ranges[dispatch.range].longest *
+         (dispatch.stepEnd - dispatch.stepBegin);
+}
+
+bool sharesStrands(const PlannedDispatch& a, const PlannedDispatch& b) {
+  return a.range == b.range && a.strandBegin < b.strandEnd && b.strandBegin < a.strandEnd;
+}
+
+Result<std::vector<PlannedDispatch>> planPass(std::span<const StrandRange> ranges, const DeviceLimits& limits,
+                                              const Settings& settings, std::size_t bodyCount,
+                                              std::uint32_t groupSize, const SolvePass& pass,
+                                              std::uint64_t mostParticleSteps) {
+  std::vector<PlannedDispatch> plan;
+  for (std::uint32_t r = 0; r < ranges.size(); ++r) {
+    const std::uint64_t turns = 2 * loopCost(ranges[r], settings, bodyCount).step;
+    if (turns > loopBudget(limits)) return tooLong(ranges[r], settings, turns, loopBudget(limits));
+    // A lane keeps no state between solves and computes forces again.
+    const PlannedDispatch piece{
+        .stepBegin = pass.step,
+        .stepEnd = pass.step + (pass.goesOn ? 2 : 1),
+        .phases = (pass.withContacts ? layout::kPhaseContacts : 0u) | (pass.moves ? layout::kPhaseMove : 0u)};
+    spreadOverGroups(plan, ranges[r], r, limits, groupSize, {&piece, 1}, mostParticleSteps);
+  }
+  return plan;
+}
+
+Result<std::vector<PlannedDispatch>> planFrame(std::span<const StrandRange> ranges,
+                                               const DeviceLimits& limits, const Settings& settings,
+                                               std::size_t bodyCount, std::uint32_t groupSize,
+                                               std::uint64_t mostParticleSteps) {
+  std::vector<PlannedDispatch> plan;
+  for (std::uint32_t r = 0; r < ranges.size(); ++r) {
+    auto steps = planSteps(ranges[r], limits, settings, bodyCount, mostParticleSteps);
+    if (!steps) return steps.error();
+    spreadOverGroups(plan, ranges[r], r, limits, groupSize, *steps, mostParticleSteps);
+  }
+  return plan;
+}
+
+}  // namespace ringlet
