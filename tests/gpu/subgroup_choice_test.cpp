@@ -1,5 +1,5 @@
 // Which widths a user can ask for, and which of those that were timed is taken.
-#include "ringlet/solver/subgroup_choice.h"
+#include "ringlet/solver/plan/subgroup_choice.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 #include "ringlet/groom/generate.h"
 #include "ringlet/solver/simulation.h"
-#include "ringlet/solver/strand_kernels.h"
+#include "ringlet/solver/strands/strand_kernels.h"
 #include "tests/support/gpu_test.h"
 
 namespace ringlet::test::subgroup_choice_test {
@@ -42,6 +42,13 @@ TEST(SubgroupChoice, OffersTheRangeAndRefusesTheRest) {
     }
   }
   expectParts(withSubgroupSize(limitsOf(4, 0, 0), 8).error().message, {"this device can have 4,"});
+}
+
+TEST(SubgroupChoice, OthersAreToldWhatThereIsInOrder) {
+  const auto refused = withSubgroupSize(limitsOf(32, 8, 64), 3);
+  ASSERT_FALSE(refused);
+  expectParts(refused.error().message,
+              {"a subgroup of 3 was asked for; this device can have 8, 16, 32 or 64, 0 chooses"});
 }
 
 TEST(SubgroupChoice, TheFastestWidthIsThatOfTheBestShapes) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,10 @@ class CrateBytes {
  public:
   static constexpr std::uint32_t kPrim = 6, kRoot = 7, kAttribute = 1;
   using Rep = std::uint64_t;
+  /// Of its tables: the last index into the other is one past its end.
+  enum class Index { tokenOfField, fieldOfSet, setOfSpec, pathOfSpec };
+  std::optional<Index> pastTheEnd{};
+
   using Fields = std::vector<std::pair<std::string, Rep>>;
 
   std::uint8_t minorVersion = 8;
@@ -150,6 +155,14 @@ class CrateBytes {
       }
       sets.push_back(-1);
     }
+    const auto lastMayBeWrong = [&](Index table, std::vector<std::int32_t>& indices, std::size_t count) {
+      if (pastTheEnd != table) return;
+      const auto last = std::find_if(indices.rbegin(), indices.rend(), [](std::int32_t i) { return i >= 0; });
+      *last = static_cast<std::int32_t>(count);
+    };
+    lastMayBeWrong(Index::tokenOfField, names, tokens_.size());
+    lastMayBeWrong(Index::fieldOfSet, sets, names.size());
+    lastMayBeWrong(Index::setOfSpec, setOf, sets.size());
     append(sections[2], std::uint64_t{names.size()});
     sections[2] += packedOf(codedIntegers(names)) + packedOf(reps);
     append(sections[3], std::uint64_t{sets.size()});
@@ -161,6 +174,7 @@ class CrateBytes {
       paths.push_back(static_cast<std::int32_t>(i));
       types.push_back(static_cast<std::int32_t>(specs_[i].type));
     }
+    lastMayBeWrong(Index::pathOfSpec, paths, specs_.size());
     for (const auto& list : {paths, setOf, types}) sections[5] += packedOf(codedIntegers(list));
 
     // All of it, and where it is.

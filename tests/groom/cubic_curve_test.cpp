@@ -3,10 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "ringlet/groom/usd_file.h"
+#include "ringlet/groom/usd/usd_file.h"
 #include "tests/groom/groom_samples.h"
 #include "tests/groom/usda_samples.h"
 
@@ -127,6 +128,21 @@ TEST(CubicCurve, SharpBendsCostNoMoreThanTheirBound) {
     EXPECT_LE(particles.size(), 29u);
   }
   EXPECT_EQ(particlesOf(std::vector<Vec3d>(7, Vec3d{1, 2, 3}), CubicBasis::bezier).size(), 3u);
+}
+
+// As many edges from either end, however long the sides are: each counts.
+TEST(CubicCurve, TurnedAroundItIsTheSameCurve) {
+  for (const CubicBasis basis : {CubicBasis::bezier, CubicBasis::bspline, CubicBasis::catmullRom}) {
+    for (std::vector<Vec3d> points : {std::vector<Vec3d>{{0, 0, 0}, {0.1, 0, 0}, {0.2, 0.1, 0}, {3, 9, 0}},
+                                      {{0, 0, 0}, {5, 0, 1}, {5, 0.1, 1}, {5.1, 0.2, 1}}}) {
+      const std::vector<Vec3d> forth = particlesOf(points, basis);
+      std::ranges::reverse(points);
+      std::vector<Vec3d> back = particlesOf(points, basis);
+      std::ranges::reverse(back);
+      ASSERT_EQ(forth.size(), back.size());
+      for (std::size_t i = 0; i < forth.size(); ++i) EXPECT_LT(length(forth[i] - back[i]), 1e-13);
+    }
+  }
 }
 
 TEST(CubicCurve, AFilesTokensChooseTheBasis) {

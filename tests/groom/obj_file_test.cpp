@@ -136,7 +136,7 @@ TEST(ObjFile, RefusesBadIndices) {
   expectError(kSixPoints + "l 1 -7 2\n", {"line 7", "found '-7'", "6 points above"});
   expectError("l -1 -2\n" + kSixPoints, {"line 1", "0 points above"});
   for (const char* word : {"x", "1.5", "1/x", "/1", "1e3", "99999999999999999999", "-99999999999999999999",
-                           "4294967297", "nan", "--1", "+", "-"}) {
+                           "4294967297", "nan", "--1", "+-1", "-+1", "++1", "+", "-"}) {
     expectError(kSixPoints + "l 1 " + word + " 2\n", {"line 7", "found '" + std::string(word)});
   }
   expectError(kSixPoints + "# \\\nl 1 \\\r\n2 3\r\nl 1 0 2\n", {"line 10", "found '0'"});

@@ -97,6 +97,17 @@ TEST(StrayPoints, NumbersThatStandForNoPlaceAreTakenOutAndNothingElse) {
 }
 
 // Every particle twice, a hair's breadth apart, as files have them: no edge is far, and both tips stay.
+// Of the two edges of such a strand the shorter says how long edges are.
+TEST(StrayPoints, OfThreeParticlesOneMayBeStray) {
+  Groom groom;
+  for (int s = 0; s < 20; ++s) {
+    const float x = 30.f + static_cast<float>(s);
+    groom.addStrand(std::vector<Vec3f>{{x, 40, 5}, {x, 39, 5}, {-50, 3, 7}});
+  }
+  EXPECT_EQ(inspectGroom(groom).strayParticles.count, 20u);
+  EXPECT_EQ(mendGroom(groom).groom.points.size(), 40u);
+}
+
 TEST(StrayPoints, PairsOfParticlesAreNone) {
   const Groom good = goodGroom();
   Groom pairs;

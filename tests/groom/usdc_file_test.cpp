@@ -1,6 +1,6 @@
-// groom/usdc_file.h: a crate's values come out as they stand in it, whatever its version and coding; every
-// broken file is refused, and none takes more memory than its size allows.
-#include "ringlet/groom/usdc_file.h"
+// groom/usd/usdc_file.h: a crate's values come out as they stand in it, whatever its version and coding;
+// every broken file is refused, and none takes more memory than its size allows.
+#include "ringlet/groom/usd/usdc_file.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/groom/lz4_block.h"
-#include "ringlet/groom/usd_file.h"
-#include "ringlet/groom/usdc_codec.h"
+#include "ringlet/groom/usd/usd_file.h"
+#include "ringlet/groom/usd/usdc_codec.h"
 #include "tests/groom/crate_bytes.h"
 #include "tests/groom/groom_samples.h"
 #include "tests/support/memory_limit.h"
@@ -268,6 +268,18 @@ TEST(UsdcFile, RefusesEveryTruncation) {
     const auto loaded = read(whole.substr(0, size));
     ASSERT_FALSE(loaded) << size;
     ASSERT_GT(loaded.error().message.size(), 20u);
+  }
+}
+
+TEST(UsdcFile, RefusesIndicesOnePastTheEnd) {
+  using Index = CrateBytes::Index;
+  for (const auto& [table, said] : {std::pair{Index::tokenOfField, "expected one of "},
+                                    {Index::fieldOfSet, "expected one of "},
+                                    {Index::setOfSpec, "expected where a set begins"},
+                                    {Index::pathOfSpec, "expected a path, each once"}}) {
+    CrateBytes crate = CrateBytes::small();
+    crate.pastTheEnd = table;
+    expectError(crate.bytes(), said);
   }
 }
 

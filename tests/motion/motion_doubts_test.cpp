@@ -73,6 +73,21 @@ std::string warningsOf(const Person& person, MotionFileChoice choice = {}) {
   return all;
 }
 
+// One key, or keys of one time: there is no frame for a second pose.
+TEST(MotionDoubts, AnAnimationThatTakesNoTimeIsRefused) {
+  for (const std::vector<double>& times : {std::vector<double>{0}, {0, 0}}) {
+    GltfBuilder file;
+    const int head = file.node({{"name", "Head"}, {"translation", {0, 1.6, 0}}});
+    file.channel(0, head, "translation", "LINEAR", times, std::vector<double>(3 * times.size(), 1));
+    const auto path = scratchFolder("motion_doubts") / "still.gltf";
+    std::ofstream(path) << file.text();
+    std::vector<std::string> warnings;
+    const auto motion = readMotionFile({.path = path}, false, warnings);
+    ASSERT_FALSE(motion);
+    EXPECT_NE(motion.error().message.find("time"), std::string::npos) << motion.error().message;
+  }
+}
+
 TEST(MotionDoubts, HeadsInOtherUnitsAreDoubted) {
   struct Unit {
     double perMetre;

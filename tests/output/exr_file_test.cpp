@@ -81,6 +81,7 @@ class Reader {
     const std::size_t size = number();
     const int lines = std::min(16, read_.height - first);
     std::vector<std::byte> raw(static_cast<std::size_t>(lines) * read_.width * 6);
+    EXPECT_LE(size, raw.size()) << "a block that would be longer is stored as it is";
     if (size == raw.size()) {
       std::memcpy(raw.data(), bytes_.data() + at_, size);
     } else {

@@ -31,6 +31,19 @@ TEST(MaterialFile, AnEmptyFileIsTheDefault) {
   }
 }
 
+// Each dot of a key is a table, however its words look; those of numbers are none.
+TEST(MaterialFile, KeysThatNestTooDeepAreRefused) {
+  for (const std::string word : {"a", "1", "a1", "1e"}) {
+    std::string key = word;
+    for (int i = 0; i < 3000; ++i) key += "." + word;
+    for (const std::string& text : {key + " = 1\n", "[" + key + "]\n"})
+      EXPECT_NE(errorOf(text).find("found 3000 dots"), std::string::npos) << errorOf(text).substr(0, 200);
+  }
+  std::string points = "[0, 1]";
+  for (int i = 1; i < 3000; ++i) points += ", [0.5, 1.25]";
+  EXPECT_EQ(errorOf("[profile]\nbend_stiffness = [" + points + "]\n").find("dots"), std::string::npos);
+}
+
 TEST(MaterialFile, EverythingIsRead) {
   const auto loaded = parseMaterial(
       "preset = 'coil'  # the base, wherever it stands\n"

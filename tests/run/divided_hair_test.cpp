@@ -8,8 +8,8 @@
 #include "ringlet/rest/whole_rest.h"
 #include "ringlet/run/split_hair.h"
 #include "ringlet/run/strand_parts.h"
-#include "ringlet/scenes/load_scene.h"
-#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/file/scene_file.h"
+#include "ringlet/scenes/load/load_scene.h"
 #include "tests/support/gpu_test.h"
 
 namespace ringlet::divided_hair_test {
@@ -54,6 +54,9 @@ TEST_F(DividedHair, NeedsAStrandADevice) {
   const auto hair = makeDividedHair({scene, frames}, std::vector<DeviceHairChoice>(7, {device()}));
   ASSERT_FALSE(hair);
   EXPECT_EQ(hair.error().message, "7 devices are more than the groom's 6 strands");
+  const auto each = makeDividedHair({scene, frames}, std::vector<DeviceHairChoice>(6, {device()}));
+  ASSERT_TRUE(each) << each.error().message;
+  EXPECT_EQ((*each)->positions()->size(), scene.groom.points.size());
 }
 
 }  // namespace

@@ -96,6 +96,32 @@ TEST(StrandParts, WeighTheSame) {
   }
 }
 
+// Two strands side by side and one far away, all of the same particles: what the two cost more are their
+// overlaps, 60 ns a side.
+TEST(StrandParts, AContactWeighsOnBothItsStrands) {
+  Groom groom;
+  groom.metresPerUnit = 1;
+  for (const float x : {0.f, 0.002f, 1.f}) {
+    std::vector<Vec3f> strand;
+    for (int i = 0; i < 30; ++i) strand.push_back({x, -0.005f * static_cast<float>(i), 0});
+    groom.addStrand(strand);
+  }
+  Settings settings = contacts(ContactMethod::explicitPairs, true);
+  settings.contacts.radius = 0.003;
+  const auto rest = *buildRestState(groom, {}, settings, orderAlongCurve(groom));
+  const StrandGraph graph = strandGraph(rest, buildRestContacts(rest, settings.contacts));
+  std::int32_t alone = 0;
+  for (std::size_t s = 0; s < 3; ++s)
+    if (graph.neighboursOf(s).empty()) alone = graph.weights[s];
+  ASSERT_EQ(graph.overlaps.size(), 2u);
+  for (std::size_t s = 0; s < 3; ++s) {
+    if (graph.neighboursOf(s).empty()) continue;
+    const std::int32_t overlaps = graph.overlaps[static_cast<std::size_t>(graph.first[s])];
+    EXPECT_GT(overlaps, 20);
+    EXPECT_NEAR(graph.weights[s] - alone, 0.6 * overlaps, 1);
+  }
+}
+
 TEST(StrandParts, MoreThanStrandsAreRefused) {
   const auto parts = divide(head(3), Settings{}, 4);
   ASSERT_FALSE(parts);
