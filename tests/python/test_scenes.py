@@ -83,9 +83,10 @@ def test_changes_are_those_of_a_sweep(device, program):
     (program.folder / "scene.toml").write_text(SCENES["bodies"])
     scene = program.folder / "scene.toml"
     changes = {"material.dials.hold": 2, "body.1.radius": np.float64(0.06), "simulation.steps_per_frame": np.int64(3),
-               "contacts.fill_gaps": np.bool_(True), "material.preset": "coil", "air.wind": (2, 0.5, 0), "air.gust": 0.5}
-    texts = ["2,1", "0.06", "3", "true", "coil", "[2, 0.5, 0]", "0.5"]
-    others = [1, 0.05, 2, False, "ringlet", [0, 0, 1], 0.25]  # each makes a difference
+               "contacts.on": np.bool_(True), "contacts.radius": 0.02, "material.preset": "coil", "air.wind": (2, 0.5, 0),
+               "air.gust": 0.5}
+    texts = ["2,1", "0.06", "3", "true", "0.02", "coil", "[2, 0.5, 0]", "0.5"]
+    others = [1, 0.05, 2, False, 0.015, "ringlet", [0, 0, 1], 0.25]  # each makes a difference
     program("sweep", "scene.toml", *(f"--vary={key}={text}" for key, text in zip(changes, texts)), "-o", "sweep",
             "--untuned", "--quiet", "--last-only", tells=False)
 
