@@ -138,8 +138,6 @@ Field<double> setRestSprings(const Settings& settings, RestStrand<double>& stran
     // A spring without stiffness can carry nothing.
     strand.stretchRestLengths[i] = edge.norm() - (stretch > 0 ? along / stretch : 0);
     targets[i] = edge - (bend > 0 ? Vector3<double>(across / bend) : Vector3<double>::Zero());
-    if (bend > 0)
-      strand.preloadShare = std::max(strand.preloadShare, across.norm() / (bend * strand.edgeLengths[i]));
   }
   return targets;
 }
@@ -283,8 +281,7 @@ RestStrand<Real> castRestStrand(const RestStrand<double>& from) {
           .bendSmoothingLength = from.bendSmoothingLength,
           .coreSmoothingLength = from.coreSmoothingLength,
           .changesHand = from.changesHand,
-          .coreIsCapped = from.coreIsCapped,
-          .preloadShare = from.preloadShare};
+          .coreIsCapped = from.coreIsCapped};
 }
 
 }  // namespace

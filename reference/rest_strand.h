@@ -42,7 +42,6 @@ struct RestStrand {
   double bendSmoothingLength = 0, coreSmoothingLength = 0;  // alpha_b, alpha_c [m]
   bool changesHand = false;                                 // the rest curl has a perversion
   bool coreIsCapped = false;  // K_c was lowered, because the step is too long for it
-  double preloadShare = 0;    // max |W across| / (k_b l_i) [1]; above 0.5 is too much
 
   /// A number of the material.
   Real of(double Material::*number) const { return static_cast<Real>(material.*number); }

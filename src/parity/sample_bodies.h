@@ -31,7 +31,7 @@ inline Body gridBall(double radius, double cell, Vec3d about = {}) {
 inline std::vector<Body> sampleBodies() {
   return {{.name = "sphere", .shape = BodyShape::sphere, .radius = 0.1},
           {.name = "capsule", .shape = BodyShape::capsule, .radius = 0.05, .length = 0.2},
-          {.name = "plane", .shape = BodyShape::plane},
+          {.name = "plane", .shape = BodyShape::plane, .thickness = 0.01},
           {.name = "box", .shape = BodyShape::box, .halfExtents = {0.08, 0.1, 0.06}, .thickness = 0.01},
           gridBall(0.1, 0.005)};
 }

@@ -308,6 +308,17 @@ TEST(AdoptedDevice, AHostInCGivesTheMemory) {
   c.free = [](void* user, const ringlet_memory* memory) {
     static_cast<HostVulkan*>(user)->free({memory->memory, memory->offset, memory->mapped, memory->own});
   };
+  // As many names as there is room for.
+  ringlet_host_needs needs = RINGLET_INIT(ringlet_host_needs);
+  ASSERT_EQ(ringlet_device_needs(&c, &needs, nullptr, 0), RINGLET_OK) << ringlet_error_message();
+  const std::vector<std::string> expected = ComputeDevice::needs(handles)->extensions;
+  ASSERT_EQ(needs.extension_count, expected.size());
+  for (uint32_t room = 0; room <= needs.extension_count + 1; ++room) {
+    std::vector<const char*> names(expected.size() + 2, "untouched");
+    ASSERT_EQ(ringlet_device_needs(&c, &needs, names.data(), room), RINGLET_OK);
+    for (std::size_t k = 0; k < names.size(); ++k)
+      EXPECT_STREQ(names[k], k < room && k < expected.size() ? expected[k].c_str() : "untouched") << room;
+  }
   ringlet_device* device = nullptr;
   ASSERT_EQ(ringlet_device_adopt(&c, &device), RINGLET_OK) << ringlet_error_message();
   const float points[] = {0, 0, 0, 0, -0.01f, 0, 0, -0.02f, 0, 0, -0.03f, 0};

@@ -188,6 +188,24 @@ TEST_F(Recorders, AreReusable) {
   for (std::uint32_t i = 0; i < 100; ++i) ASSERT_EQ(found[i], 2 * (i + 222)) << i;
 }
 
+// A device is of the process that opened it: a child cannot use it.
+TEST_F(Recorders, AChildOfForkIsRefused) {
+  auto bench = Bench::create(gpu(), 64, describeKernel(0));
+  ASSERT_TRUE(bench) << bench.error().message;
+  RINGLET_EXPECT_OK(bench->recorder.begin());
+  bench->dispatch(1);
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    const Status submitted = bench->recorder.submit();
+    _exit(!submitted && submitted.error().message.find("after fork()") != std::string::npos ? 7 : 1);
+  }
+  int ended = 0;
+  ASSERT_EQ(waitpid(child, &ended, 0), child);
+  EXPECT_TRUE(WIFEXITED(ended) && WEXITSTATUS(ended) == 7) << ended;
+  RINGLET_EXPECT_OK(bench->recorder.submitAndWait());
+}
+
 // A recording in parts is as many submissions, in order; each sees what the ones before wrote. It may be
 // submitted again, and be replaced by one of fewer or more parts.
 TEST_F(Recorders, PartsAreSubmittedOneByOne) {

@@ -48,6 +48,35 @@ TEST_F(DividedHair, PartsTakeWhatTheyAreAtRestFromTheWhole) {
   }
 }
 
+// In contact, in both ways, on a head that moves: two parts have the bits of the whole.
+TEST_F(DividedHair, TwoPartsHaveTheBitsOfTheWhole) {
+  for (const char* method : {"explicit", "volume"}) {
+    SCOPED_TRACE(method);
+    const LoadedScene scene = *loadScene(*parseScene(
+        std::string("[groom]\ngenerate = \"swatch\"\ncolumns = 3\nrows = 2\nparticles = 16\nturns = 2\n"
+                    "spacing = 0.012\n[motion]\nkind = \"shake\"\n[contacts]\nradius = 0.01\nmethod = \"") +
+            method + "\"\n",
+        "the scene"));
+    const SceneFrames frames(scene);
+    std::vector<std::vector<Vec3f>> positions;
+    for (const std::size_t devices : {1u, 2u}) {
+      auto hair = makeDividedHair({scene, frames}, std::vector<DeviceHairChoice>(devices, {device()}));
+      ASSERT_TRUE(hair) << hair.error().message;
+      for (int frame = 0; frame < 3; ++frame) {
+        ASSERT_TRUE((*hair)->submit(*frames.at(frame)));
+        ASSERT_TRUE((*hair)->wait());
+      }
+      const auto reports = (*hair)->reports();
+      ASSERT_TRUE(reports) << reports.error().message;
+      if (method[0] == 'e') {
+        EXPECT_GT(reports->contacts.contacts, 0u);
+      }
+      positions.push_back(*(*hair)->positions());
+    }
+    EXPECT_EQ(positions[1], positions[0]);
+  }
+}
+
 TEST_F(DividedHair, NeedsAStrandADevice) {
   const LoadedScene scene = sceneOf(false);
   const SceneFrames frames(scene);

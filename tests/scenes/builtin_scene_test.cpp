@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "ringlet/rest/rest_state.h"
 
@@ -22,6 +24,20 @@ void expectError(std::string_view name, const SceneOptions& options, const std::
   const auto scene = makeScene(name, options);
   ASSERT_FALSE(scene) << part;
   EXPECT_NE(scene.error().message.find(part), std::string::npos) << scene.error().message;
+}
+
+// 8 columns of 4 rows: how far apart roots are along one axis, over the other.
+TEST(BuiltinScene, AReleasedSwatchIsWiderThanItIsHigh) {
+  const auto scene = makeScene("release");
+  ASSERT_TRUE(scene) << scene.error().message;
+  const Groom& groom = scene->groom;
+  const auto extent = [&](float Vec3f::*axis) {
+    std::vector<float> places;
+    for (std::size_t s = 0; s < groom.strandCount(); ++s) places.push_back(groom.strand(s).front().*axis);
+    const auto [least, most] = std::ranges::minmax(places);
+    return most - least;
+  };
+  EXPECT_NEAR(extent(&Vec3f::y) / extent(&Vec3f::x), 3.0 / 7, 0.13);
 }
 
 TEST(BuiltinScene, EveryOneStartsAtRest) {

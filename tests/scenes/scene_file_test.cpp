@@ -429,6 +429,26 @@ TEST(SceneFile, MistakesAreNamedWithLineAndRemedy) {
       0u);
 }
 
+// Tables of a list have numbers from 1 to their count.
+TEST(SceneFile, AChangeReachesEachTableOfAList) {
+  const std::string text =
+      std::string(kGroom) +
+      "[[body]]\nshape = 'sphere'\n[[body]]\nshape = 'sphere'\n[[body]]\nshape = 'sphere'\n";
+  for (int k = 0; k <= 4; ++k) {
+    const SceneChange change{fmt::format("body.{}.radius", k), "0.5"};
+    const auto scene = parseScene(text, "scene.toml", {}, std::span(&change, 1));
+    if (k == 0 || k == 4) {
+      ASSERT_FALSE(scene) << k;
+      EXPECT_NE(scene.error().message.find("expected the number of a table, from 1 to 3"), std::string::npos)
+          << scene.error().message;
+      continue;
+    }
+    ASSERT_TRUE(scene) << scene.error().message;
+    for (int b = 0; b < 3; ++b)
+      EXPECT_EQ(scene->bodies[static_cast<std::size_t>(b)].radius == 0.5, b + 1 == k) << k;
+  }
+}
+
 TEST(SceneFile, CamerasAreRead) {
   const SceneFile s = parsed(kKind + kEverythingElse);
   ASSERT_EQ(s.cameras.size(), 2u);

@@ -207,6 +207,23 @@ TEST_F(SessionTest, BOfTheSameNumbersHasTheBitsOfA) {
   }
 }
 
+// Either may be built anew by itself, which is told of both.
+TEST_F(SessionTest, BuffersAreOthersWhicheverHairIsBuiltAnew) {
+  const Scene scene = sceneOf("still");
+  Session session = make(scene);
+  Edits edits = editsOf(scene.file);
+  edits.compares = true;
+  ASSERT_TRUE(session.setEdits(edits));
+  for (EditedMaterial& material : edits.materials) {
+    material.material.lineDensity *= 2;
+    const auto changed = session.setEdits(edits);
+    ASSERT_TRUE(changed) << changed.error().message;
+    EXPECT_TRUE(*changed);
+  }
+  edits.materials[0].dials.hold = 1.5;
+  EXPECT_FALSE(*session.setEdits(edits)) << "live";
+}
+
 // Hair that is built anew is cut where it was, and B as A is; a reset makes it whole.
 TEST_F(SessionTest, CutsAreMadeAndStay) {
   const Scene scene = sceneOf("still", "[[cut]]\ntime = 0.1\nat = 0.5\n");
