@@ -3,7 +3,7 @@
 from os import PathLike
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Callable, ClassVar, Iterable, Iterator, Mapping, Sequence
+from typing import Any, Callable, ClassVar, Iterable, Iterator, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -371,9 +371,9 @@ class RunResult:
 
 class Scene:
     @staticmethod
-    def load(path: _Path, *, changes: Mapping[str, Any] = {}, confined: bool = False) -> Scene: ...
+    def load(path: _Path, *, changes: dict[str, Any] = {}, confined: bool = False) -> Scene: ...
     @staticmethod
-    def parse(text: str, folder: _Path = "", *, changes: Mapping[str, Any] = {}, confined: bool = False) -> Scene: ...
+    def parse(text: str, folder: _Path = "", *, changes: dict[str, Any] = {}, confined: bool = False) -> Scene: ...
     @staticmethod
     def builtin(name: str, *, particles: int | None = None, strands: int | None = None, preload: float | None = None,
                 bend_stiffness: float | None = None, contacts: bool | None = None,

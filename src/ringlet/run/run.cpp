@@ -95,6 +95,7 @@ class Run::Work {
     if (events_.firstFrame && !std::exchange(hasFirstFrame_, true)) events_.firstFrame();
   }
   Status finishFiles();
+  Status finishTrace() { return trace_ ? trace_->finish() : Status{}; }
   Status tellReports();
   void tellTimes();
   void tellWarnings();
@@ -286,14 +287,13 @@ Status Run::Work::finishFrames() {
     if (Status saved = saveAt(frame_); !saved) return saved;
   }
   Status written = finishWriting();
-  if (trace_ && written) written = trace_->finish();
   tellProgress();
   lastFrame_ = Clock::now();
   return written;
 }
 
 Result<RunOutcome> Run::Work::finish() {
-  for (const auto part : {&Work::finishFrames, &Work::finishFiles, &Work::tellReports}) {
+  for (const auto part : {&Work::finishFrames, &Work::finishFiles, &Work::tellReports, &Work::finishTrace}) {
     if (Status done = (this->*part)(); !done) return done.error();
   }
   tellTimes();

@@ -49,8 +49,8 @@ struct RunOptions {
   int checkpointFrames = 0;             // from one to the next; 0: none, or as many as the run had
   Leftovers leftovers = Leftovers::refuse;
   std::vector<RunFact> facts{};   // what a run that goes on must have been a run of (run_facts.h)
-  std::filesystem::path trace{};  // a file of when each dispatch ran (trace_file.h); empty: none. Not with
-                                  // measuresContacts, whose frames are steps
+  std::filesystem::path trace{};  // of when each dispatch ran on one device (trace_file.h); empty: none. Not
+                                  // with measuresContacts, whose frames are steps
   bool measuresContacts = false;  // every step and frame, with contacts on or off; costs CPU time
   bool measuresResidual = false;  // of the velocity solve, where the integrator has one and kernels tell it
   RunWords words{};

@@ -26,7 +26,8 @@ Result<TraceFile> TraceFile::create(const std::filesystem::path& path) {
   TraceFile trace(path);
   trace.file_ << kRowNames;
   if (!trace.file_.flush())
-    return Error{fmt::format("could not write {}; is its folder there and writable?", path.string())};
+    return Error{fmt::format("could not write {}; is its folder there and writable?", path.string()),
+                 Fault::output};
   return trace;
 }
 
@@ -40,7 +41,8 @@ void TraceFile::addFrame(int number, std::span<const StageSpan> stages) {
 
 Status TraceFile::finish() {
   file_ << "\n]\n";
-  if (!file_.flush()) return Error{fmt::format("could not write {}; is the disk full?", path_.string())};
+  if (!file_.flush())
+    return Error{fmt::format("could not write {}; is the disk full?", path_.string()), Fault::output};
   return {};
 }
 
