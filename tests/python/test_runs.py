@@ -70,12 +70,21 @@ def test_several_devices_have_the_bits_of_one(device, scene):
     assert scene.run(devices=[device, device]).positions_hash == scene.run(device=device).positions_hash
 
 
+# A checkpoint reaches the disk while later frames compute: the signal waits for the one of frame 2, which is larger
+# than the first, of no frame.
 KILL = """
-import os, signal, sys
+import os, pathlib, signal, sys, time
 sys.path.insert(0, {module!r})
 import ringlet
-ringlet.Scene.load("scene.toml").run(lambda frame: frame.number < 6 or os.kill(os.getpid(), signal.{how}), folder="out",
-                                     checkpoint=2)
+checkpoint, sizes = pathlib.Path("out/checkpoint.rgk"), []
+def kill(frame):
+    sizes.append(checkpoint.stat().st_size)
+    if frame.number < 6:
+        return
+    while checkpoint.stat().st_size == sizes[0]:
+        time.sleep(0.01)
+    os.kill(os.getpid(), signal.{how})
+ringlet.Scene.load("scene.toml").run(kill, folder="out", checkpoint=2)
 """
 
 
