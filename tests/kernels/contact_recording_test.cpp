@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ringlet/gpu/recorder.h"
+#include "ringlet/solver/plan/frame_plan.h"
 #include "ringlet/solver/simulation.h"
 #include "tests/support/gpu_test.h"
 
@@ -19,15 +20,23 @@ namespace {
 
 using Commands = std::vector<std::string>;
 
-// In the order of a step, up to its first solve; and before each of the others.
-Commands ofAStep(ContactTaper taper) {
-  Commands step{"contact_motion", "contact_count",  "contact_scan",  "contact_scatter",
-                "contact_order",  "contact_sample", "contact_query", "contact_touch"};
-  if (taper == ContactTaper::time) step.insert(step.end(), {"contact_life", "contact_check"});
-  return step;
-}
-const char* betweenSolves(ContactTaper taper) {
-  return taper == ContactTaper::time ? "contact_gather" : "contact_system";
+// The contact kernels of a stage.
+Commands kernelsOf(FrameStage stage, ContactTaper taper) {
+  const bool lives = taper == ContactTaper::time;
+  switch (stage) {
+    case FrameStage::motion:
+      return {"contact_motion"};
+    case FrameStage::grid:
+      return {"contact_count", "contact_scan", "contact_scatter", "contact_order", "contact_sample"};
+    case FrameStage::lists:
+      return {"contact_query"};
+    case FrameStage::touch:
+      return lives ? Commands{"contact_touch", "contact_life", "contact_check"} : Commands{"contact_touch"};
+    case FrameStage::next:
+      return {lives ? "contact_gather" : "contact_system"};
+    default:
+      return {};
+  }
 }
 
 bool isContactKernel(const std::string& command) { return command.starts_with("contact_"); }
@@ -48,15 +57,17 @@ void expectBarriers(const Commands& commands, const std::string& label) {
   }
 }
 
-// The contact kernels of `steps` whole steps, in order.
+// The contact kernels of `steps` whole steps, in the order of the plan.
 void expectSteps(const Commands& commands, int steps, const ContactSettings& contacts,
                  const std::string& label) {
   Commands expected, found;
-  const Commands one = ofAStep(contacts.taper);
-  for (int step = 0; step < steps; ++step) {
-    expected.insert(expected.end(), one.begin(), one.end());
-    expected.insert(expected.end(), static_cast<std::size_t>(contacts.iterationCount(true) - 1),
-                    betweenSolves(contacts.taper));
+  const std::vector<PlannedStage> plan =
+      stagesOf({.steps = static_cast<std::uint32_t>(steps),
+                .iterations = static_cast<std::uint32_t>(contacts.iterationCount(true)),
+                .contacts = {.pairs = true}});
+  for (const PlannedStage& stage : plan) {
+    const Commands kernels = kernelsOf(stage.stage, contacts.taper);
+    expected.insert(expected.end(), kernels.begin(), kernels.end());
   }
   std::ranges::copy_if(commands, std::back_inserter(found), isContactKernel);
   EXPECT_EQ(found, expected) << label;

@@ -76,139 +76,146 @@ void Simulation::Implementation::dispatchAll(FrameRecording& frame, const Strand
   frame.list.endStage();
 }
 
-// A recording takes over what the host wrote for the frame, and at its end brings positions back.
-void Simulation::Implementation::beginFrame(FrameRecording& frame) const {
-  frame.pace.beginRecording();
+// What the host wrote for the frame, to where kernels read it.
+void Simulation::Implementation::recordInputs(FrameRecording& frame) const {
   buffers.poses.record(frame.list, frame.slot);
   world.record(frame.list, frame.slot);
   roots.record(frame.list, frame.slot);
   forces.record(frame.list, frame.slot);
   goals.record(frame.list, frame.slot);
   fields.record(frame.list, frame.slot);
-  frame.list.barrier();
 }
 
 // What a frame brings back to the host, also one without steps. Without timestamps a submission's time is
-// divided among its stages: stepping then keeps all of it.
+// divided among its stages: stepping then keeps all of it. Each submission of divided hair brings its control
+// block back.
 void Simulation::Implementation::recordEnd(FrameRecording& frame) const {
   const bool isTimed = readsBack && device.gpu().properties().hasTimestamps;
   if (isTimed) frame.list.beginStage(kCopyStage);
   slots[frame.slot].recordPositions(frame.list);
   if (isTimed) frame.list.endStage();
-  if (contacts || volume) buffers.recordControl(frame.list);
+  if (contactKinds().any() && !divided) buffers.recordControl(frame.list);
 }
 
-// The whole frame, once: what changes from frame to frame is in its inputs. Hair that sleeps has no steps.
-Status Simulation::Implementation::recordFrame(FrameRecording& frame) const {
-  if (stillness.sleeps()) {
-    recordEnd(frame);
-    return {};
-  }
-  if (contacts || volume) return recordContactFrame(frame, 0, true);
-  beginFrame(frame);
+Status Simulation::Implementation::recordSteps(FrameRecording& frame) const {
   for (const StrandKernels* of : {&strandKernels, &fallenKernels}) {
-    const auto plan = planFrame(of->ranges, asset->limits, settings, world.bodyCount(), asset->groupSize,
-                                frame.pace.mostParticleSteps());
-    if (!plan) return plan.error();
-    dispatchAll(frame, *of, *plan);
+    const auto dispatches = planFrame(of->ranges, asset->limits, settings, world.bodyCount(),
+                                      asset->groupSize, frame.pace.mostParticleSteps());
+    if (!dispatches) return dispatches.error();
+    dispatchAll(frame, *of, *dispatches);
   }
-  recordEnd(frame);
   return {};
 }
 
-// Of hair as a volume among bodies the first solve of a step, by which strands hear of each other, knows no
-// bodies: others hear of what those do a step later (kContactWarmth). It has kernels and dispatches of its
-// own.
-Status Simulation::Implementation::recordPass(FrameRecording& frame, const SolvePass& pass, Of which) const {
-  if (pass.goesOn && firstSolveKernels.areThere()) {
-    const SolvePass now{pass.step, pass.withContacts, pass.moves, false};
-    if (Status status = recordPass(frame, now, which); !status) return status;
-    return recordPass(frame, {.step = pass.step + 1}, which);
-  }
-  const bool isFirstSolve = !pass.withContacts && firstSolveKernels.areThere();
-  for (const StrandKernels* of : {isFirstSolve ? &firstSolveKernels : &strandKernels, &fallenKernels}) {
+Status Simulation::Implementation::recordSolve(FrameRecording& frame, const PlannedStage& stage) const {
+  for (const StrandKernels* of :
+       {stage.withoutBodies ? &firstSolveKernels : &strandKernels, &fallenKernels}) {
     const std::size_t bodies = of == &firstSolveKernels ? 0 : world.bodyCount();
-    auto dispatches = planPass(of->ranges, asset->limits, settings, bodies, asset->groupSize, pass,
+    auto dispatches = planPass(of->ranges, asset->limits, settings, bodies, asset->groupSize, stage.pass,
                                frame.pace.mostParticleSteps());
     if (!dispatches) return dispatches.error();
-    if (which != Of::all) {
-      const bool isBorder = which == Of::border;
+    if (stage.strands != StrandsOf::all) {
+      const bool isBorder = stage.strands == StrandsOf::border;
       std::erase_if(*dispatches, [&](const PlannedDispatch& dispatch) {
         return isBorder != (dispatch.strandEnd <= asset->halo->borderCount);
       });
     }
     dispatchAll(frame, *of, *dispatches);
   }
-  frame.list.barrier();
   return {};
 }
 
-// What strands hear of each other before the first iteration of a step's solve, and before each later one.
-// Contacts come first: they may halt, and then the volume must not go on.
-void Simulation::Implementation::recordGrid(FrameRecording& frame, std::uint32_t step,
-                                            std::uint32_t whose) const {
-  if (!contacts) return;
-  contacts->recordGrid(frame.list, frame.pace, step, whose);
-  frame.list.barrier();
-}
-void Simulation::Implementation::recordFirstContacts(FrameRecording& frame, std::uint32_t step) const {
-  if (!contacts) return;
-  contacts->recordLists(frame.list, frame.pace, step);
-  frame.list.barrier();
-  contacts->recordFirst(frame.list, frame.pace);
-  frame.list.barrier();
-}
-void Simulation::Implementation::recordNextContacts(FrameRecording& frame) const {
-  if (!contacts) return;
-  contacts->recordNext(frame.list, frame.pace);
-  frame.list.barrier();
-}
-void Simulation::Implementation::recordBrought(FrameRecording& frame, std::uint32_t step,
-                                               bool isFirst) const {
-  if (!volume) return;
-  volume->recordBrought(frame.list, frame.pace, step, isFirst);
-  frame.list.barrier();
-}
-void Simulation::Implementation::recordSums(FrameRecording& frame, std::uint32_t step, bool isFirst) const {
-  if (!volume) return;
-  if (isFirst && volume->sorts(step)) {
-    volume->recordSort(frame.list, frame.pace, step);
-    frame.list.barrier();
+void Simulation::Implementation::recordRows(FrameRecording& frame, const PlannedStage& stage) const {
+  const bool isOut = stage.stage == FrameStage::rowsOut;
+  frame.pace.beginStage(frame.list, isOut ? "part_pack" : "part_unpack");
+  if (isOut) {
+    divided->recordOut(frame.list, stage.rows);
+  } else {
+    divided->recordIn(frame.list, stage.rows);
   }
-  volume->recordSums(frame.list, frame.pace, step);
-  frame.list.barrier();
-}
-void Simulation::Implementation::recordMeans(FrameRecording& frame, std::uint32_t step) const {
-  if (!volume) return;
-  volume->recordMeans(frame.list, frame.pace, step);
-  frame.list.barrier();
+  frame.list.endStage();
 }
 
-// The frame from a step on. Between the solves of a step stand its contacts (contact_stage.h,
-// volume_stage.h).
-Status Simulation::Implementation::recordContactFrame(FrameRecording& frame, std::uint32_t firstStep,
-                                                      bool predictFirst) const {
-  beginFrame(frame);
-  if (predictFirst) {
-    if (Status status = recordPass(frame, {.step = firstStep}); !status) return status;
+Status Simulation::Implementation::record(FrameRecording& frame, const PlannedStage& stage) const {
+  gpu::CommandList& list = frame.list;
+  SubmissionPace& now = frame.pace;
+  const bool isRepeated = frame.repeatsStep && stage.whose == layout::kOfElsewhere;
+  switch (stage.stage) {
+    case FrameStage::inputs:
+      recordInputs(frame);
+      break;
+    case FrameStage::steps:
+      return recordSteps(frame);
+    case FrameStage::solve:
+      return recordSolve(frame, stage);
+    case FrameStage::motion:
+      contacts->recordMotion(list, now, stage.step, isRepeated ? layout::kOfAll : stage.whose);
+      break;
+    case FrameStage::grid:
+      contacts->recordGrid(list, now, stage.step);
+      break;
+    case FrameStage::lists:
+      contacts->recordLists(list, now, stage.step);
+      break;
+    case FrameStage::touch:
+      contacts->recordFirst(list, now);
+      break;
+    case FrameStage::next:
+      contacts->recordNext(list, now);
+      break;
+    case FrameStage::brought:
+      volume->recordBrought(list, now, stage.step, stage.isFirst);
+      break;
+    case FrameStage::sort:
+      volume->recordSort(list, now, stage.step);
+      break;
+    case FrameStage::sums:
+      volume->recordSums(list, now, stage.step);
+      break;
+    case FrameStage::means:
+      volume->recordMeans(list, now, stage.step);
+      break;
+    case FrameStage::reach:
+      volume->recordReach(list);
+      break;
+    case FrameStage::rowsOut:
+    case FrameStage::rowsIn:
+      recordRows(frame, stage);
+      break;
+    case FrameStage::exchange:
+      break;  // it ends the submission
+    case FrameStage::end:
+      recordEnd(frame);
+      break;
   }
-  const std::uint32_t steps = static_cast<std::uint32_t>(settings.stepsPerFrame);
-  const int iterations = settings.contacts.iterationCount(contacts.has_value());
-  for (std::uint32_t step = firstStep; step < steps; ++step) {
-    recordGrid(frame, step, layout::kOfAll);
-    recordFirstContacts(frame, step);
-    for (int iteration = 1; iteration <= iterations; ++iteration) {
-      const bool isFirst = iteration == 1, isLast = iteration == iterations;
-      if (!isFirst) recordNextContacts(frame);
-      recordBrought(frame, step, isFirst);
-      recordSums(frame, step, isFirst);
-      recordMeans(frame, step);
-      const SolvePass pass{step, true, isLast, isLast && step + 1 < steps};
-      if (Status status = recordPass(frame, pass); !status) return status;
-    }
-  }
-  recordEnd(frame);
   return {};
+}
+
+Status Simulation::Implementation::record(FrameRecording& frame, std::span<const PlannedStage> stages) const {
+  for (const PlannedStage& stage : stages) {
+    if (Status status = record(frame, stage); !status) return status;
+    if (stage.barrier) frame.list.barrier();
+  }
+  return {};
+}
+
+std::vector<PlannedStage> Simulation::Implementation::planStages() const {
+  FrameNeeds needs{
+      .steps = static_cast<std::uint32_t>(settings.stepsPerFrame),
+      .iterations = static_cast<std::uint32_t>(settings.contacts.iterationCount(contacts.has_value())),
+      .contacts = contactKinds(),
+      .sleeps = stillness.sleeps(),
+      .predictsWithoutBodies = firstSolveKernels.areThere(),
+      .isDivided = divided.has_value(),
+      .samples = contacts && contacts->samples()};
+  if (volume) needs.sorts = [this](std::uint32_t step) { return volume->sorts(step); };
+  return stagesOf(needs);
+}
+
+// The whole frame, once: what changes from frame to frame is in its inputs.
+Status Simulation::Implementation::recordFrame(FrameRecording& frame) const {
+  frame.pace.beginRecording();
+  return record(frame, planStages());
 }
 
 // A frame of this slot's, to be submitted as often as wanted.
@@ -229,7 +236,10 @@ Status Simulation::Implementation::recordRest(std::size_t slot) {
   of.recorded = FrameSlot::Recorded::nothing;
   if (Status status = of.recorder.begin(); !status) return status;
   FrameRecording frame{of.recorder, pace, slot};
-  if (Status status = recordContactFrame(frame, contacts->haltedStep(), false); !status) return status;
+  frame.pace.beginRecording();
+  const std::vector<PlannedStage> plan = planStages();
+  const std::size_t begin = contactsBegin(plan, contacts->haltedStep());
+  if (Status status = record(frame, std::span(plan).subspan(begin)); !status) return status;
   of.particleSteps = frame.particleSteps;
   return {};
 }

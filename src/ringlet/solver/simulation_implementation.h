@@ -30,6 +30,7 @@
 #include "ringlet/solver/inputs/device_world.h"
 #include "ringlet/solver/inputs/rigid_hair.h"
 #include "ringlet/solver/plan/dispatch_plan.h"
+#include "ringlet/solver/plan/frame_plan.h"
 #include "ringlet/solver/plan/submission_pace.h"
 #include "ringlet/solver/simulation.h"
 #include "ringlet/solver/strands/device_groom.h"
@@ -74,6 +75,13 @@ struct FrameRecording {
   // do.
   std::uint32_t heads = 1;
   double particleSteps = 0;  // of strands
+  bool repeatsStep = false;  // of divided hair: its lists found no room
+};
+
+// What parts of divided hair have exchanged in a step, for one that repeats it.
+struct PartStep {
+  ContactStage::Largest largest{};
+  std::optional<ContactStage::Sample> sample{};  // of all parts
 };
 
 // This head and some behind it in its row, as a dispatch sees them.
@@ -244,19 +252,15 @@ struct Simulation::Implementation {
   }
   FrameSlot& slotOf(std::uint64_t frame) { return slots[frame % kFramesInFlight]; }
   const FrameSlot& waitedSlot();  // of the frame waited for last
-  void beginFrame(FrameRecording& frame) const;
+  std::vector<PlannedStage> planStages() const;
+  void recordInputs(FrameRecording& frame) const;
   void recordEnd(FrameRecording& frame) const;
+  Status recordSteps(FrameRecording& frame) const;
+  Status recordSolve(FrameRecording& frame, const PlannedStage& stage) const;
+  void recordRows(FrameRecording& frame, const PlannedStage& stage) const;
+  Status record(FrameRecording& frame, const PlannedStage& stage) const;
+  Status record(FrameRecording& frame, std::span<const PlannedStage> stages) const;
   Status recordFrame(FrameRecording& frame) const;
-  void recordGrid(FrameRecording& frame, std::uint32_t step, std::uint32_t whose) const;
-  void recordFirstContacts(FrameRecording& frame, std::uint32_t step) const;
-  void recordNextContacts(FrameRecording& frame) const;
-  void recordBrought(FrameRecording& frame, std::uint32_t step, bool isFirst) const;
-  void recordSums(FrameRecording& frame, std::uint32_t step, bool isFirst) const;
-  void recordMeans(FrameRecording& frame, std::uint32_t step) const;
-  Status recordContactFrame(FrameRecording& frame, std::uint32_t firstStep, bool predictFirst) const;
-  // Of which strands a dispatch is: of a part's border, or of its others (RestHalo).
-  enum class Of { all, border, inner };
-  Status recordPass(FrameRecording& frame, const SolvePass& pass, Of which = Of::all) const;
   void dispatchAll(FrameRecording& frame, const StrandKernels& of,
                    std::span<const PlannedDispatch> dispatches) const;
   FrameSlot::Recorded wantedRecording() const {
@@ -280,20 +284,12 @@ struct Simulation::Implementation {
                 std::span<const BodyPose> rootPoses);
 
   // divided_frames.cpp
-  template <class Work>
-  Status startPart(FrameRecording& frame, gpu::Recorder& recorder, const Work& work);
+  Status startPart(FrameRecording& frame, gpu::Recorder& recorder, std::span<const PlannedStage> stages);
   Status endPart(gpu::Recorder& recorder);
-  template <class Work>
-  Status submitPart(FrameRecording& frame, gpu::Recorder& recorder, const Work& work);
-  void recordRowsOut(FrameRecording& frame, DividedHair::Rows rows) const;
-  void recordRowsIn(FrameRecording& frame, DividedHair::Rows rows) const;
-  Status recordBorder(FrameRecording& frame, const SolvePass& pass) const;
-  Status stepInner(FrameRecording& frame, gpu::Recorder& recorder, const SolvePass& pass);
-  void recordMeasures(FrameRecording& frame, const SolvePass& pass) const;
-  Status exchangeStart();
-  Status exchangeSums(std::uint32_t step, bool isFirst);
-  template <class Solve>
-  Status meetFirst(FrameRecording& frame, gpu::Recorder& recorder, std::uint32_t step, const Solve& solve);
+  Status exchangeStarts(PartStep& now);
+  Status exchangeSample(PartStep& now);
+  Status exchangeSums(const PlannedStage& stage);
+  Status exchange(const PlannedStage& stage, PartStep& now);
   Status runParts(std::size_t slot);
 
   // hair_frames.cpp

@@ -295,10 +295,7 @@ void ContactStage::recordMotion(gpu::CommandList& list, SubmissionPace& pace, st
   list.endStage();
 }
 
-void ContactStage::recordGrid(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step,
-                              std::uint32_t whose) const {
-  recordMotion(list, pace, step, whose);
-  list.barrier();
+void ContactStage::recordGrid(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const {
   pace.beginStage(list, "contact_grid");
   using enum ContactKernel;
   const std::pair<ContactKernel, std::uint64_t> grid[] = {

@@ -50,13 +50,11 @@ class ContactStage {
   /// Dispatches these without work, so that the driver compiles them before they are needed.
   void recordNothing(gpu::CommandList& list) const;
 
-  /// Records the parts of a step, in order. The caller records the barriers before and after each.
-  /// whose: the contact particles whose motion is measured now (layout::kOfAll and its like): of divided hair
-  /// those here with recordMotion before, and setLargest between; all, if a step is repeated.
+  /// Records the stages of a step (plan/frame_plan.h). The caller records the barriers before and after each.
+  /// whose: the contact particles whose motion is measured (layout::kOfAll and its like).
   void recordMotion(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step,
                     std::uint32_t whose) const;
-  void recordGrid(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step,
-                  std::uint32_t whose = layout::kOfAll) const;
+  void recordGrid(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
   void recordLists(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
   void recordFirst(gpu::CommandList& list, SubmissionPace& pace) const;
   void recordNext(gpu::CommandList& list, SubmissionPace& pace) const;

@@ -57,9 +57,9 @@ class VolumeStage {
   void beginFrame(std::uint32_t steps) { sorts_.beginFrame(steps); }
   std::uint32_t untilSort() const { return sorts_.until(); }
 
-  /// Records the parts of a step, in order. The caller records the barriers before and after each. The
-  /// kernels do nothing if contacts of pairs have halted. Contributions of the particles in an iteration, the
-  /// first of a step or a later one.
+  /// Records the stages of a step (plan/frame_plan.h). The caller records the barriers before and after each.
+  /// The kernels do nothing if contacts of pairs have halted. Contributions of the particles in an iteration,
+  /// the first of a step or a later one.
   void recordBrought(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step, bool isFirst) const;
   /// In a step that sorts, once. In each iteration, the sums of contributions at the grid's nodes, and what
   /// the means give the particles.

@@ -27,9 +27,8 @@ gpu::KernelDescription describe(const char* name, std::span<const std::uint32_t>
 }
 
 // Bytes of a particle's row.
-std::size_t rowBytes(DividedHair::Rows rows) {
-  return sizeof(float) *
-         (rows == DividedHair::Rows::step ? layout::kFloatsOfStepRow : layout::kFloatsOfSolveRow);
+std::size_t rowBytes(Rows rows) {
+  return sizeof(float) * (rows == Rows::step ? layout::kFloatsOfStepRow : layout::kFloatsOfSolveRow);
 }
 
 }  // namespace

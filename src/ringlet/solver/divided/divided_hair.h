@@ -25,16 +25,13 @@
 #include "ringlet/rest/rest_contacts.h"
 #include "ringlet/rest/rest_halo.h"
 #include "ringlet/solver/part_link.h"
+#include "ringlet/solver/plan/frame_plan.h"
 #include "ringlet/solver/strands/device_groom.h"
 
 namespace ringlet {
 
 class DividedHair {
  public:
-  /// The rows that are exchanged: at a step's start x, v and v^0 of each contact particle, 36 bytes; after a
-  /// solve v^k, 12 bytes.
-  enum class Rows { step, solve };
-
   /// The link and the hair's buffers must live as long. Errors: a device that lacks memory.
   static Result<DividedHair> create(gpu::Device& device, const RestContacts& contacts, const RestHalo& halo,
                                     PartLink& link, const DeviceChunk& hair);
