@@ -15,6 +15,7 @@
 
 #include "bench/clocks.h"
 #include "ringlet/base/box_pairs.h"
+#include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/simulation.h"
 
 namespace {
@@ -122,11 +123,11 @@ void contacts(benchmark::State& state) {
   std::map<std::string, std::vector<double>> samples;  // [ms]
   for (auto _ : state) {
     if (!simulation->setState(hair)) return state.SkipWithError("a state was refused");
-    auto before = simulation->stageMilliseconds();
+    auto before = Diagnostics(*simulation).stageMilliseconds();
     const double cpu = processCpuSeconds();
     if (!simulation->stepFrame(HeadPose{})) return state.SkipWithError("a step failed");
     samples["cpu_per_core"].push_back(1e3 * (processCpuSeconds() - cpu) / coreCount());
-    for (const auto& [stage, milliseconds] : simulation->stageMilliseconds())
+    for (const auto& [stage, milliseconds] : Diagnostics(*simulation).stageMilliseconds())
       samples[stage].push_back(milliseconds - before[stage]);
   }
   double step = 0;

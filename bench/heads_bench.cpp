@@ -12,6 +12,7 @@
 
 #include "bench/clocks.h"
 #include "ringlet/groom/generate.h"
+#include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/hair_frames.h"
 
 namespace {
@@ -154,8 +155,8 @@ Result<Figures> measure(const Asked& asked) {
                                  [&](int frame) { return stepTogether(*together, frame); },
                                  [&](int frame) { return stepEach(*one, frame); }});
   if (!times) return times.error();
-  return Figures{device->name(), together->front().kernelDescription(), one->front().kernelDescription(),
-                 created, *times};
+  return Figures{device->name(), Diagnostics(together->front()).kernels(),
+                 Diagnostics(one->front()).kernels(), created, *times};
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "bench/clocks.h"
 #include "ringlet/groom/generate.h"
+#include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/plan/shape_plan.h"
 #include "ringlet/solver/simulation.h"
 
@@ -115,9 +116,9 @@ Status run(int strands, int particles) {
     return Error{fmt::format("{} particles are not where their strands are alone, {} are nowhere", *others,
                              report->nonfinite)};
 
-  const DeviceMemory memory = simulation->memory();
+  const DeviceMemory memory = Diagnostics(*simulation).memory();
   fmt::print("{} strands, {} particles, {} on {}\n", groom->strandCount(), groom->points.size(),
-             simulation->kernelDescription(), device->name());
+             Diagnostics(*simulation).kernels(), device->name());
   fmt::print("  every {}th strand is, bit for bit, where it is alone\n", stride);
   fmt::print("  device   {:.0f} MiB: particles {:.0f}, strands {:.0f}, frames in flight {:.0f}\n",
              mebibytes(memory.total()), mebibytes(memory.particles), mebibytes(memory.strands),

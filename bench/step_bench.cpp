@@ -18,6 +18,7 @@
 #include "reference/step.h"
 #include "ringlet/bodies/shape_grid.h"
 #include "ringlet/groom/generate.h"
+#include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/simulation.h"
 
 namespace {
@@ -128,7 +129,7 @@ struct FrameSamples {
 
 Status timeFrame(Simulation& simulation, int frame, FrameSamples& samples) {
   const auto poses = posesOfFrame(frame, Settings{}.stepsPerFrame);
-  auto before = simulation.stageMilliseconds();
+  auto before = Diagnostics(simulation).stageMilliseconds();
   const double cpu = processCpuSeconds(), start = wallSeconds();
   if (Status status = simulation.stepFrame(poses); !status) return status;
   const double stepped = wallSeconds();
@@ -138,7 +139,7 @@ Status timeFrame(Simulation& simulation, int frame, FrameSamples& samples) {
   samples.wall.push_back(1e3 * (end - start));
   samples.readback.push_back(1e3 * (end - stepped));
   double sum = 0;
-  for (const auto& [stage, milliseconds] : simulation.stageMilliseconds()) {
+  for (const auto& [stage, milliseconds] : Diagnostics(simulation).stageMilliseconds()) {
     samples.stages[stage].push_back(milliseconds - before[stage]);
     if (stage != kCopyStage) sum += milliseconds - before[stage];
   }

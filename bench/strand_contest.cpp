@@ -108,12 +108,13 @@ void Contest::addReferences(const std::vector<int>& particleCounts) {
 
 Status Contest::stepKernel() {
   const double steps = settings_.stepsPerFrame;
-  const double before = simulation_->stageMilliseconds()["strand_step"], cpu = processCpuSeconds(),
-               wall = wallSeconds();
+  const double before = Diagnostics(*simulation_).stageMilliseconds()["strand_step"],
+               cpu = processCpuSeconds(), wall = wallSeconds();
   if (Status status = simulation_->stepFrame(poses_); !status) return status;
   samples_.kernelWall.push_back((wallSeconds() - wall) / steps);
   samples_.kernelCpu.push_back((processCpuSeconds() - cpu) / steps);
-  samples_.kernel.push_back(1e-3 * (simulation_->stageMilliseconds()["strand_step"] - before) / steps);
+  samples_.kernel.push_back(1e-3 * (Diagnostics(*simulation_).stageMilliseconds()["strand_step"] - before) /
+                            steps);
   return {};
 }
 

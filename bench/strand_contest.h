@@ -10,6 +10,7 @@
 #include "bench/hand_vectorised.h"
 #include "bench/thread_team.h"
 #include "reference/step.h"
+#include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/simulation.h"
 
 namespace ringlet::bench {
@@ -44,7 +45,7 @@ class Contest {
   double particles() const { return particles_; }
   double operationsPerStep() const { return operationsPerStep_; }  // operation_count.h; 0 without the loop
   double bytesPerStep() const { return bytesPerStep_; }            // a dispatch's, over its steps
-  std::string kernel() const { return simulation_->kernelDescription(); }
+  std::string kernel() const { return Diagnostics(*simulation_).kernels(); }
 
  private:
   Contest() = default;

@@ -83,8 +83,8 @@ void loopAsThePaper(vec3 pinned[3]) {
     if (isPinned(k)) v[k] = pinned[k];
   }
   vec3 forceBefore = forceFromRootward();
-  float dtForce = stepSeconds() / float(parameters.forceLoops);
-  float dtDamping = dtForce / float(parameters.dampingLoops);
+  float dtForce = stepSeconds() / float(numbers.forceLoops);
+  float dtDamping = dtForce / float(numbers.dampingLoops);
   uint loop = 0;
   do {
     RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
@@ -95,8 +95,8 @@ void loopAsThePaper(vec3 pinned[3]) {
     do {
       dampOnce(dtDamping);
       limitRates();
-    } while (++inner < parameters.dampingLoops);
-  } while (++loop < parameters.forceLoops);
+    } while (++inner < numbers.dampingLoops);
+  } while (++loop < numbers.forceLoops);
 }
 
 #endif

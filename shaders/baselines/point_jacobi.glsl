@@ -35,8 +35,8 @@ void iteratePointJacobi(vec3 pinned[3]) {
   }
 
   float omega = 1.0;
-  for (uint iteration = 0; iteration < parameters.pointIterations; ++iteration) {
-    if (parameters.chebyshev != 0 && iteration > 0) {
+  for (uint iteration = 0; iteration < numbers.pointIterations; ++iteration) {
+    if (numbers.chebyshev != 0 && iteration > 0) {
       omega = chebyshevWeight(iteration, omega, strand.jacobiGap);
     }
     vec3 vBefore = fromRootward(v[RUN - 1], 1);

@@ -29,7 +29,7 @@ void feelAir(uint step) {
   RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     vec3 here = isEdge(k) ? eHat[k] : vec3(0);
     tangent[k] = directionOf((k > 0 ? eHat[max(k - 1, 0)] : before) + here);
-    drag[k] = airDrag(v[k] - wind[k], tangent[k], parameters.dragStrength, parameters.dragAlong, stepSeconds());
+    drag[k] = airDrag(v[k] - wind[k], tangent[k], numbers.dragStrength, numbers.dragAlong, stepSeconds());
   }
 }
 

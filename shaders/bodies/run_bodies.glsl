@@ -142,7 +142,7 @@ float massAt(int k, float next) {
   RINGLET_AT(j, k, mass = restEdge[j].x)
   return mass;
 }
-bool isPinnedAt(int k) { return first + k < parameters.rootCount; }
+bool isPinnedAt(int k) { return first + k < rootCount(); }
 
 struct NextParticle {  // the next lane's first
   vec3 p;
@@ -200,9 +200,9 @@ bool findPushes(uint step) {
   float reach = T * sqrt(fastest) + kTouchDistance;
   uint asked = 0;
   uint touched = 0;
-  uint b = nextNear(room, reach, step, parameters.bodyCount, 0);
-  if (b < parameters.bodyCount) do {
-    BodyStep body = bodyStep(step, parameters.bodyCount, b);
+  uint b = nextNear(room, reach, step, numbers.bodyCount, 0);
+  if (b < numbers.bodyCount) do {
+    BodyStep body = bodyStep(step, numbers.bodyCount, b);
     float roomBefore = 0.0;  // what is left to the body when particle k - 1 has gone its way
     bool isBuried = lane == 0 && !kFalls;  // what falls has no root that may be in a body
     vec3 placeBefore = vec3(0);
@@ -235,8 +235,8 @@ bool findPushes(uint step) {
         askOf(body, k, isOne ? k : k + 1, next, edgeBefore, touched, asked);
       } while ((particleBits | edgeBits) != 0);
     } while (isAnotherWord(part));
-    b = nextNear(room, reach, step, parameters.bodyCount, b + 1);
-  } while (b < parameters.bodyCount);
+    b = nextNear(room, reach, step, numbers.bodyCount, b + 1);
+  } while (b < numbers.bodyCount);
   passPushesOn();
   isClear = sumOverStrand(touched) == 0;
   return sumOverStrand(asked) > 0;
@@ -273,9 +273,9 @@ void moveParticle(int j, vec3 place, vec3 change) {
 
 void keepParticlesOut(uint step, Room room, bool isDone) {
   float T = stepSeconds();
-  uint b = isDone ? parameters.bodyCount : nextNear(room, kTouchDistance, step, parameters.bodyCount, 0);
-  if (b < parameters.bodyCount) do {
-    BodyStep body = bodyStep(step, parameters.bodyCount, b);
+  uint b = isDone ? numbers.bodyCount : nextNear(room, kTouchDistance, step, numbers.bodyCount, 0);
+  if (b < numbers.bodyCount) do {
+    BodyStep body = bodyStep(step, numbers.bodyCount, b);
     uint part = 0;
     do {
       int begin = int(part) * kPart;
@@ -303,8 +303,8 @@ void keepParticlesOut(uint step, Room room, bool isDone) {
         }
       } while (bits != 0);
     } while (isAnotherWord(part));
-    b = nextNear(room, kTouchDistance, step, parameters.bodyCount, b + 1);
-  } while (b < parameters.bodyCount);
+    b = nextNear(room, kTouchDistance, step, numbers.bodyCount, b + 1);
+  } while (b < numbers.bodyCount);
 }
 
 // Of two ways the one that is further, with its change of velocity.
@@ -326,9 +326,9 @@ void keepEdgesOut(uint step, Room room, bool isDone) {
   vec3 nextShift = vec3(0);
   vec3 nextChange = vec3(0);
   if (isEdge(RUN - 1)) include(room, pNext);
-  uint b = isDone ? parameters.bodyCount : nextNear(room, kTouchDistance, step, parameters.bodyCount, 0);
-  if (b < parameters.bodyCount) do {
-    BodyStep body = bodyStep(step, parameters.bodyCount, b);
+  uint b = isDone ? numbers.bodyCount : nextNear(room, kTouchDistance, step, numbers.bodyCount, 0);
+  if (b < numbers.bodyCount) do {
+    BodyStep body = bodyStep(step, numbers.bodyCount, b);
     float distanceBefore = 0.0;
     vec3 placeBefore = vec3(0);
     uint part = 0;
@@ -369,8 +369,8 @@ void keepEdgesOut(uint step, Room room, bool isDone) {
         } while (++end < 2);
       } while (bits != 0);
     } while (isAnotherWord(part));
-    b = nextNear(room, kTouchDistance, step, parameters.bodyCount, b + 1);
-  } while (b < parameters.bodyCount);
+    b = nextNear(room, kTouchDistance, step, numbers.bodyCount, b + 1);
+  } while (b < numbers.bodyCount);
   vec3 rootwardShift = fromRootward(nextShift, 1);
   vec3 rootwardChange = fromRootward(nextChange, 1);
   if (lane > 0 && dot(rootwardShift, rootwardShift) > dot(shift[0], shift[0])) {

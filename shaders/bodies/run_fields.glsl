@@ -29,8 +29,8 @@ vec3 fieldGrid(StepField field, vec3 x) {
 // From positions at the step's start.
 void feelFields(uint step) {
   uint f = 0;
-  if (parameters.fieldCount > 0) do {
-    StepField field = stepField(step * parameters.fieldCount + f);
+  if (numbers.fieldCount > 0) do {
+    StepField field = stepField(step * numbers.fieldCount + f);
     RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
       vec3 q = fieldArm(field, p[k]);
       vec3 F = fieldStrength(field, q);
@@ -38,7 +38,7 @@ void feelFields(uint step) {
       float m = isParticle(k) ? restEdge[k].x : 0.0;
       pulled[k] += m * fieldPull(field, F, fieldWeight(field, length(q)), stepSeconds());
     }
-  } while (++f < parameters.fieldCount);
+  } while (++f < numbers.fieldCount);
 }
 
 #endif

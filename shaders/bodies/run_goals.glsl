@@ -10,8 +10,8 @@
 // Of edges: what is pulled is how the edge lies, with the mass of its particle. From edges at the step's start; the
 // pull is added to their forces.
 void feelGoalShape(uint step) {
-  float shareBefore = float(step) / float(parameters.stepCount);
-  float shareAfter = float(step + 1) / float(parameters.stepCount);
+  float shareBefore = float(step) / float(numbers.stepCount);
+  float shareAfter = float(step + 1) / float(numbers.stepCount);
   RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     uint i = strand.firstParticle + (isEdge(k) ? first + k : 0);
     vec4 begin = goalAtFrameStart(i);
@@ -32,8 +32,8 @@ void feelGoalShape(uint step) {
 
 // From positions at the step's start. Places are the groom's, carried as its roots are.
 void feelGoals(uint step) {
-  float shareBefore = float(step) / float(parameters.stepCount);
-  float shareAfter = float(step + 1) / float(parameters.stepCount);
+  float shareBefore = float(step) / float(numbers.stepCount);
+  float shareAfter = float(step + 1) / float(numbers.stepCount);
   RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     uint i = strand.firstParticle + (isParticle(k) ? first + k : 0);
     vec4 begin = goalAtFrameStart(i);

@@ -16,12 +16,12 @@
 float contactRestLength(float R, float restDistance) { return max(0.0, min(R, restDistance - 1e-4 * R)); }
 
 /// c = 2 zeta sqrt(k m_c) [N s/m], with m_c by k [N/m].
-float contactDamping(float k, float R, ContactParameters settings) {
+float contactDamping(float k, float R, ContactNumbers settings) {
   return 2.0 * settings.dampingRatio * k * sqrt(R / max(settings.stiffness, 1e-30));
 }
 
 /// (k [N/m], c [N s/m]) of two particles whose mean mass is m_c [kg].
-vec2 contactConstants(float mass, float R, ContactParameters settings) {
+vec2 contactConstants(float mass, float R, ContactNumbers settings) {
   float k = settings.stiffness * mass / R;
   return vec2(k, contactDamping(k, R, settings));
 }
@@ -41,13 +41,13 @@ ContactMeeting contactMeeting(vec3 apart, vec3 parting, bool aIsLower) {
   return meeting;
 }
 
-bool isTouching(ContactMeeting meeting, float restLength, ContactParameters settings) {
+bool isTouching(ContactMeeting meeting, float restLength, ContactNumbers settings) {
   return meeting.distance < restLength || (meeting.distance < settings.seenAhead * restLength &&
                                            meeting.distance + settings.seconds * meeting.separation < restLength);
 }
 
 /// The distance taper: a contact without memory. delta at distance d; r0 is above 0.
-float dampingAt(float d, float restLength, ContactParameters settings) {
+float dampingAt(float d, float restLength, ContactNumbers settings) {
   float end = settings.breakFactor;
   return clamp((end * restLength - d) / ((end - 1.0) * restLength), 0.0, 1.0);
 }
@@ -60,7 +60,7 @@ float lifeOfShares(vec2 shares) { return shares.x > 0.0 ? -shares.x : shares.y; 
 float faded(float share) { return share < 1e-5 ? 0.0 : share; }
 
 /// The shares (kappa, delta) after a step.
-vec2 nextLife(vec2 shares, bool touching, float distance, float restLength, ContactParameters settings) {
+vec2 nextLife(vec2 shares, bool touching, float distance, float restLength, ContactNumbers settings) {
   if (touching) return vec2(min(1.0, shares.x + settings.ramp), 1.0);
   if (distance > settings.breakFactor * restLength) return vec2(0);
   if (shares.x > 0.0) return vec2(faded(shares.x - settings.stiffnessRelease), shares.y);
@@ -71,13 +71,13 @@ struct ContactWeights {
   float spring, damping, tangential;  // q_s, q_d, q_t [kg]
 };
 
-ContactWeights contactWeights(float spring, float damping, ContactParameters settings) {
+ContactWeights contactWeights(float spring, float damping, ContactNumbers settings) {
   return ContactWeights(spring, damping, settings.friction * damping);
 }
 
 /// `lived`: the contact existed before this step, which left it `shares`.
 ContactWeights contactWeights(vec2 shares, bool lived, bool touching, float gap, float stiffness, float damping,
-    ContactParameters settings) {
+    ContactNumbers settings) {
   float T = settings.seconds;
   return contactWeights(touching ? T * T * stiffness * shares.x : 0.0,
       lived || gap > 0.0 ? T * damping * shares.y : 0.0, settings);

@@ -6,6 +6,6 @@
 void main() {
   if (gl_GlobalInvocationID.x > 0) return;
   if (control.isHalted != 0) return;
-  endLists(listsHadRoom() && control.liveBlocks <= parameters.liveBlockCount &&
-           control.longestLive <= parameters.mostLiveBlocks * kLiveBlock);
+  endLists(listsHadRoom() && control.liveBlocks <= numbers.liveBlockCount &&
+           control.longestLive <= numbers.mostLiveBlocks * kLiveBlock);
 }

@@ -19,7 +19,7 @@ bool hasOthersNear(ivec3 cell, uint group) {
 
 void main() {
   uint c = gl_GlobalInvocationID.x;
-  if (c >= parameters.contactCount) return;
+  if (c >= numbers.contactCount) return;
   ContactRest rest = contactOf(c);
   vec3 x = positionOf(rest.particle);
   ivec3 cell = cellOf(x);

@@ -15,13 +15,13 @@ Symmetric unmet = symmetricDiagonal(0.0);
 void add(uint entry, ContactForce force, vec3 otherVelocity) {
   vec3 normal = force.normal.xyz;
   float spring = force.normal.w;
-  if (spring > 0.0 && !isMet(force.gap, dot(normal, v - otherVelocity), parameters.seconds)) {
-    unmetPush += contactPush(spring, force.gap, parameters.seconds) * normal;
+  if (spring > 0.0 && !isMet(force.gap, dot(normal, v - otherVelocity), numbers.seconds)) {
+    unmetPush += contactPush(spring, force.gap, numbers.seconds) * normal;
     unmet = addOuter(unmet, spring, normal);
     forces[entry].normal.w = 0.0;
     spring = 0.0;
   }
-  momentum += contactMultiply(contactWeights(spring, force.damping, parameters), normal, v + otherVelocity);
+  momentum += contactMultiply(contactWeights(spring, force.damping, numbers), normal, v + otherVelocity);
 }
 
 void main() {

@@ -18,10 +18,10 @@ ContactTerms terms = kNoTerms;
 void append(ContactForce force, ContactLife life) {
   if (count % kLiveBlock == 0) {
     block = atomicAdd(control.liveBlocks, 1);
-    if (count / kLiveBlock < parameters.mostLiveBlocks) liveLists[list + 1 + count / kLiveBlock] = block;
+    if (count / kLiveBlock < numbers.mostLiveBlocks) liveLists[list + 1 + count / kLiveBlock] = block;
   }
   // Where there is no room, entries are still counted, so that the host knows how many are needed.
-  if (block < parameters.liveBlockCount) {
+  if (block < numbers.liveBlockCount) {
     uint entry = block * kLiveBlock + count % kLiveBlock;
     forces[entry] = force;
     lives[lifeEntry(control.parity, entry)] = life;
@@ -34,13 +34,13 @@ void append(ContactForce force, ContactLife life) {
 void liveOn(ContactLife before, vec4 other, vec3 otherX, vec3 otherV) {
   float r0 = before.restLength;
   ContactMeeting meeting = contactMeeting(x - otherX, v - otherV, isBefore(rest.particle, before.particle));
-  bool touching = isTouching(meeting, r0, parameters);
-  vec2 shares = nextLife(sharesOf(before.shares), touching, meeting.distance, r0, parameters);
+  bool touching = isTouching(meeting, r0, numbers);
+  vec2 shares = nextLife(sharesOf(before.shares), touching, meeting.distance, r0, numbers);
   if (shares == vec2(0)) return;
-  float damping = contactDamping(before.stiffness, rest.radius + other.w, parameters);
+  float damping = contactDamping(before.stiffness, rest.radius + other.w, numbers);
   float gap = r0 - meeting.distance;
   ContactWeights weights =
-      contactWeights(shares, before.shares != 0.0, touching, gap, before.stiffness, damping, parameters);
+      contactWeights(shares, before.shares != 0.0, touching, gap, before.stiffness, damping, numbers);
   addWeights(terms, weights, meeting.normal, gap, guess + other.xyz);
   append(ContactForce(vec4(meeting.normal, weights.spring), before.particle, weights.damping, gap, 0),
          ContactLife(before.particle, lifeOfShares(shares), r0, before.stiffness));

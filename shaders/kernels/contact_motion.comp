@@ -29,11 +29,11 @@ void measure(uint c) {
   uint particle = rest.particle;
   vec3 x = positionOf(particle);
   vec3 v = velocityOf(particle);
-  motion = larger(motion, length(x - listedPosition(c)) + parameters.seconds * length(v - listedVelocity(c)));
+  motion = larger(motion, length(x - listedPosition(c)) + numbers.seconds * length(v - listedVelocity(c)));
   speed = larger(speed, length(v));
   vec3 change = control.steps > 0 ? lastVelocityOf(particle) - predictedBefore(c) : vec3(0);
   histories[c].predicted[control.parity ^ 1] = vec4(v, 0);
-  guesses[particle] = vec4(v + parameters.warmth * change, rest.radius);
+  guesses[particle] = vec4(v + numbers.warmth * change, rest.radius);
   if (kInGroups) {
     uint group = groupOf(rest.strand);
     ivec3 cell = cellOf(x);
@@ -45,7 +45,7 @@ void measure(uint c) {
 void measureAll() {
   if (control.isHalted != 0) return;
   uint invocations = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
-  for (uint c = gl_GlobalInvocationID.x; c < parameters.contactCount; c += invocations) measure(c);
+  for (uint c = gl_GlobalInvocationID.x; c < numbers.contactCount; c += invocations) measure(c);
   // The bits of numbers >= 0 order as the numbers do. Most are below the maximum so far, and a read costs less than an
   // atomic.
   if (floatBitsToUint(motion) > control.motion) atomicMax(control.motion, floatBitsToUint(motion));

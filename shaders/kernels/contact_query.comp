@@ -12,10 +12,10 @@ uint block = 0;  // the last block of it
 void append(ContactPair pair) {
   if (count % kListBlock == 0) {
     block = atomicAdd(control.blocks, 1);
-    if (count / kListBlock < parameters.mostBlocks) lists[listedBlock(list, count / kListBlock)] = block;
+    if (count / kListBlock < numbers.mostBlocks) lists[listedBlock(list, count / kListBlock)] = block;
   }
   // Where there is no room, pairs are still counted, so that the host knows how many are needed.
-  if (block < parameters.blockCount) pairs[block * kListBlock + count % kListBlock] = pair;
+  if (block < numbers.blockCount) pairs[block * kListBlock + count % kListBlock] = pair;
   ++count;
 }
 
@@ -23,13 +23,13 @@ void append(ContactPair pair) {
 bool isSought(vec3 otherPosition, vec3 otherVelocity, uint otherParticle, float r0) {
   precise vec3 apart = x - otherPosition;
   precise float squared = apart.x * apart.x + apart.y * apart.y + apart.z * apart.z;
-  float ahead = parameters.seconds * length(v - otherVelocity);
-  float reach = min(max(r0 + ahead, parameters.reachFactor * r0), parameters.listedAhead * r0) + parameters.skin;
+  float ahead = numbers.seconds * length(v - otherVelocity);
+  float reach = min(max(r0 + ahead, numbers.reachFactor * r0), numbers.listedAhead * r0) + numbers.skin;
   return squared < reach * reach;
 }
 
 void take(ContactRest other, float R, float r0) {
-  vec2 constants = contactConstants(0.5 * (rest.mass + other.mass), R, parameters);
+  vec2 constants = contactConstants(0.5 * (rest.mass + other.mass), R, numbers);
   append(ContactPair(other.particle, r0, constants.x, constants.y));
 }
 
@@ -45,7 +45,7 @@ void main() {
   }
   uvec4 self = placedPosition(place);
   vec3 velocity = uintBitsToFloat(placedVelocity(place).xyz);
-  if (!search(c, uintBitsToFloat(self.xyz), velocity, self.w, parameters.skin, 0, kSearchRows))
+  if (!search(c, uintBitsToFloat(self.xyz), velocity, self.w, numbers.skin, 0, kSearchRows))
     control.isHalted = kHaltedByTurns;
   lists[list] = count;
   if (count > control.longestList) atomicMax(control.longestList, count);

@@ -11,7 +11,7 @@ uint found = 0;
 
 bool isSought(vec3 otherPosition, vec3 otherVelocity, uint otherParticle, float r0) {
   ContactMeeting meeting = contactMeeting(x - otherPosition, v - otherVelocity, isBefore(rest.particle, otherParticle));
-  return isTouching(meeting, r0, parameters);
+  return isTouching(meeting, r0, numbers);
 }
 
 void take(ContactRest other, float R, float r0) { ++found; }

@@ -17,5 +17,5 @@ void main() {
   if (!setStarts(all)) return;
   // The bucket beyond the last starts after all.
   grid[gridSum(gl_NumWorkGroups.x)] = all;
-  grid[gridStart(parameters.bucketCount)] = 0;
+  grid[gridStart(numbers.bucketCount)] = 0;
 }

@@ -5,7 +5,7 @@
 
 void main() {
   uint c = gl_GlobalInvocationID.x;
-  if (c >= parameters.contactCount) return;
+  if (c >= numbers.contactCount) return;
   uint bucket = grid[gridBucketOf(c)];
   if (bucket != kNoBucket) grid[gridEntry(startOf(bucket) + grid[gridRank(c)])] = c;
 }

@@ -15,7 +15,7 @@ ContactTerms terms = kNoTerms;
 /// Adds a contact. Returns whether its spring would hold the pair together, and is removed.
 bool add(ContactPair pair, vec3 otherX, vec3 otherV, bool pushes) {
   ContactMeeting meeting = contactMeeting(x - otherX, v - otherV, isBefore(rest.particle, pair.particle));
-  bool holds = pushes && !isMet(pair.restLength - meeting.distance, meeting.separation, parameters.seconds);
+  bool holds = pushes && !isMet(pair.restLength - meeting.distance, meeting.separation, numbers.seconds);
   addContact(terms, pair, meeting, pushes && !holds, v + otherV);
   return holds;
 }

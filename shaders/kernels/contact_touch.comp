@@ -41,7 +41,7 @@ void setTerms(ContactRest rest) { setSystem(rest, terms); }
 
 // Clears the groups of cells and regions, which the next step writes anew.
 void emptyCells(uint c) {
-  for (uint bucket = c; bucket < parameters.bucketCount; bucket += parameters.contactCount) {
+  for (uint bucket = c; bucket < numbers.bucketCount; bucket += numbers.contactCount) {
     grid[cellGroups(bucket)] = 0;
     grid[regionGroups(bucket)] = 0;
   }
@@ -50,8 +50,8 @@ void emptyCells(uint c) {
 /// Looks at a pair, if there is one. Returns its bits as if it were the first of its block.
 uint look(ContactPair pair, vec3 otherX, vec3 otherV, bool isThere) {
   ContactMeeting meeting = contactMeeting(x - otherX, v - otherV, isBefore(particle, pair.particle));
-  bool touching = isThere && isTouching(meeting, pair.restLength, parameters);
-  bool acts = touching || (isThere && meeting.distance < parameters.breakFactor * pair.restLength);
+  bool touching = isThere && isTouching(meeting, pair.restLength, numbers);
+  bool acts = touching || (isThere && meeting.distance < numbers.breakFactor * pair.restLength);
   if (acts) addTerms(pair, meeting, touching);
   return uint(acts) | uint(touching) << kListBlock;
 }
@@ -60,7 +60,7 @@ void main() {
   if (control.isHalted != 0) return;
   uint c = gl_GlobalInvocationID.x;
   if (c == 0) checkLists();  // others that see it halted already would return for want of room, too
-  if (!listsHadRoom() || c >= parameters.contactCount) return;
+  if (!listsHadRoom() || c >= numbers.contactCount) return;
   if (kInGroups) emptyCells(c);
   ContactRest rest = contactOf(c);
   if (isElsewhere(rest.strand)) return;

@@ -63,7 +63,7 @@ void loadStrand() {
     restTarget[k] = vec4(dot(rest.target, direction), dot(rest.target, normal), dot(rest.target, binormal),
                          rest.stretchRestLength);
     bool edge = isEdge(k);
-    restEdge[k] = vec4(real ? rest.mass : 1.0, edge ? parameters.maxStretch * rest.edgeLength : 1e30,
+    restEdge[k] = vec4(real ? rest.mass : 1.0, edge ? numbers.maxStretch * rest.edgeLength : 1e30,
                        rest.coreEdgeLength, edge ? edgeScaleOf(rest.edgeLength) : 0.0);
     inverseLength[k] = edge ? 1.0 / rest.edgeLength : 0.0;
     if (kProfiles) {
@@ -146,8 +146,8 @@ void smoothCurves(vec3 edgeStart, vec3 velocityStart, vec3 rootDirection, vec3 r
   }
   directionAfter = direction;
   normalAfter = normal;
-  coreScale = coreBlend(sumOverStrand(coreLength) / strand.restCoreLength, parameters.coreRelaxedShare,
-                        parameters.coreElongationLow, parameters.coreElongationHigh);
+  coreScale = coreBlend(sumOverStrand(coreLength) / strand.restCoreLength, numbers.coreRelaxedShare,
+                        numbers.coreElongationLow, numbers.coreElongationHigh);
 }
 
 #ifdef RINGLET_TAPS

@@ -16,15 +16,15 @@ void main() {
   vec3 v = velocityOf(self.particle);
   vec3 x = positionOf(self.particle);
   vec3 place = inHeadFrame(x);
-  vec3 s = isKnown ? fadedDisplacement(before.displacement, place - before.place, parameters.kept) : vec3(0);
+  vec3 s = isKnown ? fadedDisplacement(before.displacement, place - before.place, numbers.kept) : vec3(0);
   vec3 last = lastVelocityOf(self.particle);
   vec4 added = addedTo(self.particle);
   // J / m, of a particle that is of the volume and does not follow the head.
   bool isFree = self.inverseMassUnit * self.mass > 0.0;
   vec3 given = isFree ? (added.xyz - added.w * last) / (self.inverseMassUnit * self.mass) : vec3(0);
-  vec3 change = isKnown ? guessedChange(parameters.warmth, gain(), last - before.predicted, given) : vec3(0);
+  vec3 change = isKnown ? guessedChange(numbers.warmth, gain(), last - before.predicted, given) : vec3(0);
   // Of a strand, a line, cells n times as large hold n times the mass in n^3 times the room.
-  float coarser = cell > parameters.cell ? parameters.cell / cell : 1.0;
+  float coarser = cell > numbers.cell ? numbers.cell / cell : 1.0;
   float mass = self.mass * othersShare(coarser * coarser * self.ownDensity, before.density);
   vec4 rate = rateFrom(mass, v + change, x, s, seen);
   states[i] = VolumeState(s, before.density, place, mass, v, 1);

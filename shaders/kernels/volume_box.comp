@@ -10,13 +10,13 @@ void main() {
   if (halt.isHalted != 0) return;
   ivec3 least = ivec3(control.least[0], control.least[1], control.least[2]);
   ivec3 greatest = ivec3(control.greatest[0], control.greatest[1], control.greatest[2]);
-  float cell = parameters.cell;
+  float cell = numbers.cell;
   uvec3 size = uvec3(0);
   bool fits = false;
   do {
     size = uvec3(greatest - least) + 2;  // one more along each axis, for the nodes
     // At least one cell stays free, since the end of a cell is the start of the next.
-    fits = float(size.x) * float(size.y) * float(size.z) < 0.999 * float(parameters.cellCapacity);
+    fits = float(size.x) * float(size.y) * float(size.z) < 0.999 * float(numbers.cellCapacity);
     if (!fits) {
       least >>= 1;
       greatest >>= 1;

@@ -9,6 +9,6 @@ void main() {
   if (!findParticle(i)) return;
   uint place = startOf(cellNumber(cellOf(i))) + cellNumber(cellRank(i));
   vec3 inCells = placeInCells(placeOf(i));
-  parcels[place] = VolumeParcel(broughtBy(i), inCells, parameters.unitsPerMass * volumeParticle(i).mass);
+  parcels[place] = VolumeParcel(broughtBy(i), inCells, numbers.unitsPerMass * volumeParticle(i).mass);
   located[i] = uvec4(floatBitsToUint(inCells), place);
 }

@@ -21,7 +21,7 @@ void main() {
   }
   states[i].density = mean.w;
 
-  vec3 given = mass * (mean.xyz - parameters.stiffness * parameters.seconds * s);
+  vec3 given = mass * (mean.xyz - numbers.stiffness * numbers.seconds * s);
   vec3 momentum = inWorld(given) + g * carriedVelocity(positionOf(self.particle));
   addedByVolume[self.particle] = self.inverseMassUnit * vec4(momentum, g);
 }

@@ -46,6 +46,7 @@ RINGLET_CONSTANT uint kBindGuessTexels = 26;
 RINGLET_CONSTANT uint kBindPairTexels = 27;
 RINGLET_CONSTANT uint kBindLifeTexels = 28;
 RINGLET_CONSTANT uint kBindForceTexels = 29;    // 2 a contact
+RINGLET_CONSTANT uint kBindContactNumbers = 30;  // uniform: ContactNumbers
 RINGLET_CONSTANT uint kContactTexelBindingCount = 12;
 
 // Lists are as long as they must be, in blocks of this many pairs that are given out as they are asked for. Which block
@@ -162,7 +163,14 @@ RINGLET_CONSTANT uint kOfAll = 0;
 RINGLET_CONSTANT uint kOfHere = 1;       // stepped by this device
 RINGLET_CONSTANT uint kOfElsewhere = 2;  // by another
 
+// Push constants: what a dispatch is of.
 struct ContactParameters {
+  uint step;   // of the frame
+  uint whose;  // contact_motion.comp: kOfAll, kOfHere or kOfElsewhere
+};
+
+// Settings, and what there is room for.
+struct ContactNumbers {
   uint contactCount;
   uint bucketCount;     // a power of two
   uint blockCount;      // there are
@@ -170,7 +178,6 @@ struct ContactParameters {
   uint liveBlockCount;  // there are in a row
   uint mostLiveBlocks;  // of a contact particle
   uint everyPair;       // any two strands may touch
-  uint step;            // of the frame
   float seconds;        // T
   float skin;           // [m]
   float largestRadius;  // [m]
@@ -184,7 +191,6 @@ struct ContactParameters {
   float breakFactor;    // beyond this times r0 a contact is over
   float seenAhead;      // a contact is seen ahead from this times r0
   float listedAhead;    // and in lists from this times r0 on, no more than seenAhead
-  uint whose;           // contact_motion.comp: kOfAll, kOfHere or kOfElsewhere
   uint mostSampled;     // contact particles of a sample, at most
   uint sampleStride;    // in dense hair: one contact particle in so many is in the sample; 0: there is none
   float warmth;         // share of a step's change by contacts that the next one is guessed to have

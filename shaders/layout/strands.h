@@ -67,6 +67,9 @@ RINGLET_CONSTANT uint kBindGoalTexels = 34;
 // And the poses of many heads, in place of one's:
 RINGLET_CONSTANT uint kBindHeadPoseTexels = 40;  // StepPose[heads][headPoses]: 3 a pose
 
+// And what does not change within a frame:
+RINGLET_CONSTANT uint kBindNumbers = 41;  // uniform: HairNumbers
+
 // Integrators (kSpecIntegrator).
 RINGLET_CONSTANT uint kIntegratorJacobi = 0;
 RINGLET_CONSTANT uint kIntegratorPointJacobi = 1;
@@ -161,35 +164,41 @@ struct RootPose {
   vec4 velocity;  // xyz: of the groom's origin in the step that ends here, relative to the head's translation [m/s]
 };
 
+// Push constants: what a dispatch is of.
 struct StepParameters {
-  vec3 gravity;   // [m/s^2]
-  float seconds;  // the outer step T
-  float maxStretch;
-  float coreRelaxedShare;
-  float coreElongationLow;
-  float coreElongationHigh;
   uint strandBegin;  // this dispatch's strands, device order
   uint strandEnd;
   uint stepBegin;  // this dispatch's steps within the frame
   uint stepEnd;
+  uint phases;         // with contacts: kPhaseMove, kPhaseContacts
+  uint particleCount;  // of the chunk: stride of the taps
+  uint strandCount;    // of the chunk: stride of the root poses
+  uint headCount;      // of this dispatch, where buffers hold many
+  uint headParticles;  // from one head to the next: particles, strands, poses
+  uint headStrands;
+  uint headPoses;
+};
+
+// Settings, material and counts of a frame.
+struct HairNumbers {
+  vec3 gravity;         // [m/s^2], times the material's factor
+  float inertiaFactor;  // of Material
+  vec3 fallGravity;     // of what was cut off [m/s^2]
+  float seconds;        // the outer step T
+  float maxStretch;
+  float coreRelaxedShare;
+  float coreElongationLow;
+  float coreElongationHigh;
+  float dragStrength;  // g / U^2, U the fall speed [1/m]
+  float dragAlong;     // share of drag that what passes along a strand has
   uint rootCount;
+  uint stepCount;
+  uint bodyCount;
+  uint fieldCount;
   uint pointIterations;
   uint chebyshev;
   uint forceLoops;
   uint dampingLoops;
-  uint particleCount;  // of the chunk: stride of the taps
-  uint phases;         // with contacts: kPhaseMove, kPhaseContacts
-  uint bodyCount;
-  float dragStrength;  // g / U^2, U the fall speed [1/m]
-  float dragAlong;     // share of drag that what passes along a strand has
-  uint strandCount;    // of the chunk: stride of the root poses
-  uint stepCount;      // of the frame
-  uint fieldCount;
-  uint headCount;  // of this dispatch, where buffers hold many
-  uint headParticles;  // from one head to the next: particles, strands, poses
-  uint headStrands;
-  uint headPoses;
-  float inertiaFactor;  // of Material; 1 for what was cut off
 };
 
 #ifdef __cplusplus

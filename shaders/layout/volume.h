@@ -39,6 +39,7 @@ RINGLET_CONSTANT uint kBindVolumeNodeTexels = 22;
 RINGLET_CONSTANT uint kBindVolumeLocatedTexels = 23;
 RINGLET_CONSTANT uint kBindVolumeCellTexels = 24;  // four numbers each
 RINGLET_CONSTANT uint kBindVolumeAddedTexels = 25;
+RINGLET_CONSTANT uint kBindVolumeNumbers = 26;  // uniform: VolumeNumbers
 RINGLET_CONSTANT uint kVolumeTexelBindingCount = 11;
 
 // Constant per volume particle, in device order: one in so many of a strand that meets others as a volume, for as many.
@@ -64,7 +65,7 @@ struct VolumeState {
 // hair back, by 1e-5 m in half a second.
 RINGLET_CONSTANT uint kVolumeUnits = 1u << 30;
 struct VolumeParcel {
-  vec4 rate;   // xyz: g a, of unit unitsPerGain / mostRate; w: g, of unit unitsPerGain (VolumeParameters)
+  vec4 rate;   // xyz: g a, of unit unitsPerGain / mostRate; w: g, of unit unitsPerGain (VolumeNumbers)
   vec3 place;  // in cells, from the box's first node
   float mass;  // of unit unitsPerMass
 };
@@ -86,17 +87,22 @@ struct VolumeControl {
   uint finished;           // workgroups of this dispatch (shared/last_group.glsl)
 };
 
+// Push constants: what a dispatch is of.
 struct VolumeParameters {
+  uint step;   // of the frame
+  uint sorts;  // 1: this step puts particles into cells; 0: they stay where they were
+};
+
+// Settings, and what there is room for.
+struct VolumeNumbers {
   uint count;         // volume particles
   uint cellCapacity;  // cells there is room for, a multiple of kBucketBlock
-  uint step;          // of the frame
   float seconds;      // T
   float cell;         // h [m]
   float drag;         // lambda [1/s]
   float stiffness;    // k [1/s^2]
   float kept;         // share of a displacement that is still known a step later, exp(-T / tau)
   float warmth;       // kVolumeWarmth
-  uint sorts;         // 1: this step puts particles into cells; 0: they stay where they were
   float mostRate;      // largest component of a that the sums have room for, volumeMostRate [m/s]
   float unitsPerGain;  // kVolumeUnits per largest g [1/kg]
   float unitsPerMass;  // kVolumeUnits per largest mass [1/kg]

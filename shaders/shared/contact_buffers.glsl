@@ -39,6 +39,7 @@ layout(set = 0, binding = kBindPairTexels) uniform usamplerBuffer pairTexels;
 layout(set = 0, binding = kBindLifeTexels) uniform usamplerBuffer lifeTexels;
 layout(set = 0, binding = kBindForceTexels) uniform usamplerBuffer forceTexels;
 layout(push_constant) uniform Parameters { ContactParameters parameters; };
+layout(set = 0, binding = kBindContactNumbers) uniform Numbers { ContactNumbers numbers; };
 
 layout(constant_id = kSpecInGroups) const bool kInGroups = false;  // strands of one group do not meet pair by pair
 layout(constant_id = kSpecDivided) const bool kDivided = false;   // other devices step some of the strands
@@ -111,35 +112,35 @@ const uint kSampleLanes = kForGpu ? 9 : 1;
 /// Particles of a sample that a workgroup looks at.
 uint sampledOfGroup() { return gl_WorkGroupSize.x / kSampleLanes; }
 uint sampledContact(uint k) {
-  uint remainder = control.steps % parameters.sampleStride;
+  uint remainder = control.steps % numbers.sampleStride;
   if (kDivided) {
     uint at = sampled[remainder] + k;
     return at < sampled[remainder + 1] ? sampled[at] : kNoContact;
   }
-  uint c = k * parameters.sampleStride + remainder;
-  return c < parameters.contactCount ? c : kNoContact;
+  uint c = k * numbers.sampleStride + remainder;
+  return c < numbers.contactCount ? c : kNoContact;
 }
 
 // The parts of the grid's buffer, one after another; solver/contacts/contact_stage.cpp computes its size. The contact
 // particles of bucket b are the entries [start of b, start of b + 1).
 uint gridCount(uint bucket) { return bucket; }  // contact particles in a bucket; 0 outside a rebuild
 // Start of a bucket within its block; one entry more than there are buckets.
-uint gridStart(uint bucket) { return parameters.bucketCount + bucket; }
+uint gridStart(uint bucket) { return numbers.bucketCount + bucket; }
 // Sum before a block; one entry more than there are blocks.
-uint gridSum(uint block) { return 2 * parameters.bucketCount + 1 + block; }
-uint gridBucketOf(uint c) { return gridSum(parameters.bucketCount / kBucketBlock + 1) + c; }
+uint gridSum(uint block) { return 2 * numbers.bucketCount + 1 + block; }
+uint gridBucketOf(uint c) { return gridSum(numbers.bucketCount / kBucketBlock + 1) + c; }
 // Rank of c in its bucket; the order is arbitrary.
-uint gridRank(uint c) { return gridBucketOf(parameters.contactCount) + c; }
+uint gridRank(uint c) { return gridBucketOf(numbers.contactCount) + c; }
 /// The contact particle at a place; the order within a bucket is arbitrary.
-uint gridEntry(uint place) { return gridRank(parameters.contactCount) + place; }
+uint gridEntry(uint place) { return gridRank(numbers.contactCount) + place; }
 
 /// If some hair meets as a volume: the group in a cell, and in a region of eight cells, as kSeveralGroups describes.
-uint cellGroups(uint bucket) { return gridEntry(parameters.contactCount) + bucket; }
-uint regionGroups(uint bucket) { return cellGroups(parameters.bucketCount) + bucket; }
+uint cellGroups(uint bucket) { return gridEntry(numbers.contactCount) + bucket; }
+uint regionGroups(uint bucket) { return cellGroups(numbers.bucketCount) + bucket; }
 bool hasOthers(uint groups, uint group) { return groups != 0 && groups != group + 1; }
 /// Contact particles in the grid: if some hair meets as a volume, only those with a possible partner nearby.
 uint placedCount() {
-  return kInGroups ? grid[gridSum(parameters.bucketCount / kBucketBlock)] : parameters.contactCount;
+  return kInGroups ? grid[gridSum(numbers.bucketCount / kBucketBlock)] : numbers.contactCount;
 }
 
 uint startOf(uint bucket) { return grid[gridStart(bucket)] + grid[gridSum(bucket / kBucketBlock)]; }
@@ -149,30 +150,30 @@ uint startOf(uint bucket) { return grid[gridStart(bucket)] + grid[gridSum(bucket
 // The coordinate is a product and not a quotient: Vulkan specifies the rounding of products exactly, and two kernels
 // must find the same cell for the same place.
 ivec3 cellOf(vec3 x) {
-  float cellsPerMetre = kInGroups ? parameters.cellsPerMetre : control.cellsPerMetre;
+  float cellsPerMetre = kInGroups ? numbers.cellsPerMetre : control.cellsPerMetre;
   return ivec3(clamp(floor(x * cellsPerMetre), vec3(-1073741824.0), vec3(1073741824.0)));
 }
 uint bucketOf(ivec3 cell) {
   uint row = uint(cell.y) * 2654435761u ^ uint(cell.z) * 2246822519u;
   row = (row ^ (row >> 15)) * 2654435769u;
-  return ((row ^ (row >> 13)) + uint(cell.x)) & (parameters.bucketCount - 1);
+  return ((row ^ (row >> 13)) + uint(cell.x)) & (numbers.bucketCount - 1);
 }
 
 // The buffer of lists. listOf: where the list of a contact particle starts. A list is its length, followed by two
 // numbers per block of pairs: the index of the block, and bits. The lower half of the bits marks the pairs that act on
 // each other, the upper half those that touch or, between iterations, those whose springs push.
-uint listOf(uint c) { return c * (1 + 2 * parameters.mostBlocks); }
+uint listOf(uint c) { return c * (1 + 2 * numbers.mostBlocks); }
 uint listedBlock(uint list, uint b) { return list + 1 + 2 * b; }
 uint pairBits(uint list, uint b) { return list + 2 + 2 * b; }
 /// After the lists: the contact particles that have contacts or had some, in arbitrary order; then whether each has
 /// any.
-uint meetingPlace(uint i) { return listOf(parameters.contactCount) + i; }
-uint meetsPlace(uint c) { return meetingPlace(parameters.contactCount) + c; }
+uint meetingPlace(uint i) { return listOf(numbers.contactCount) + i; }
+uint meetsPlace(uint c) { return meetingPlace(numbers.contactCount) + c; }
 /// Where the list of a contact particle's contacts starts, of this step or of the last: their number, then blocks.
-uint liveListOf(uint c, uint parity) { return (2 * c + parity) * (1 + parameters.mostLiveBlocks); }
+uint liveListOf(uint c, uint parity) { return (2 * c + parity) * (1 + numbers.mostLiveBlocks); }
 /// Index of contact j of a list among the forces, and of such an entry among the lives.
 uint forceEntry(uint list, uint j) { return liveLists[list + 1 + j / kLiveBlock] * kLiveBlock + j % kLiveBlock; }
-uint lifeEntry(uint parity, uint force) { return parity * parameters.liveBlockCount * kLiveBlock + force; }
+uint lifeEntry(uint parity, uint force) { return parity * numbers.liveBlockCount * kLiveBlock + force; }
 
 /// Pairs and the places and velocities of their others, asked for at once.
 struct Partners {
@@ -192,7 +193,7 @@ Partners partnersAt(uint entries[kAtOnce]) {
 
 /// Whether every list found room for all its pairs.
 bool listsHadRoom() {
-  return control.blocks <= parameters.blockCount && control.longestList <= parameters.mostBlocks * kListBlock;
+  return control.blocks <= numbers.blockCount && control.longestList <= numbers.mostBlocks * kListBlock;
 }
 /// Of one invocation. If lists had no room, contact kernels do nothing until the host has enlarged the buffers. If they
 /// had, the step has examined every pair in them.

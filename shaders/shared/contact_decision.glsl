@@ -17,7 +17,7 @@ void judgeLists() {
   if (atomicOr(control.missed, 0) * kMissedOneIn > atomicOr(control.sampled, 0)) control.isDue = 1;
   control.indirectQuery[0] = 0;
   if (control.isHalted != 0 || control.isDue == 0) return;
-  control.indirectQuery[0] = groupsOf(parameters.contactCount);
+  control.indirectQuery[0] = groupsOf(numbers.contactCount);
   control.isListed = 1;
   control.listed = 0;
   control.blocks = 0;
@@ -26,12 +26,12 @@ void judgeLists() {
 }
 
 // Of hair divided among devices parts ask together: contact_judge.comp judges all their samples.
-bool isJudgedLater() { return kDivided && parameters.sampleStride > 0; }
+bool isJudgedLater() { return kDivided && numbers.sampleStride > 0; }
 
 void dispatchGrid(bool grid, bool asks) {
-  control.indirectContacts[0] = grid ? groupsOf(parameters.contactCount) : 0;
-  control.indirectBuckets[0] = grid ? parameters.bucketCount / kBucketBlock : 0;
-  control.indirectSample[0] = asks ? (parameters.mostSampled + sampledOfGroup() - 1) / sampledOfGroup() : 0;
+  control.indirectContacts[0] = grid ? groupsOf(numbers.contactCount) : 0;
+  control.indirectBuckets[0] = grid ? numbers.bucketCount / kBucketBlock : 0;
+  control.indirectSample[0] = asks ? (numbers.mostSampled + sampledOfGroup() - 1) / sampledOfGroup() : 0;
   for (uint axis = 1; axis < 3; ++axis) {
     control.indirectContacts[axis] = 1;
     control.indirectBuckets[axis] = 1;
@@ -55,8 +55,8 @@ void decideLists() {
   }
   float motion = uintBitsToFloat(atomicExchange(control.motion, 0));
   float speed = uintBitsToFloat(atomicExchange(control.speed, 0));
-  bool isGood = control.isListed != 0 && 2.0 * motion <= parameters.skin;
-  bool asks = !isGood && control.isListed != 0 && parameters.sampleStride > 0;
+  bool isGood = control.isListed != 0 && 2.0 * motion <= numbers.skin;
+  bool asks = !isGood && control.isListed != 0 && numbers.sampleStride > 0;
   dispatchGrid(!isGood, asks);
   control.isDue = isGood || asks ? 0 : 1;
   control.step = parameters.step;
@@ -66,10 +66,10 @@ void decideLists() {
   control.longestLive = 0;
   if (!isGood) {
     // The largest distance of a pair in these lists, and a margin for the rounding of cells.
-    float R = 2.0 * parameters.largestRadius;
-    float ahead = 2.0 * parameters.seconds * speed;
+    float R = 2.0 * numbers.largestRadius;
+    float ahead = 2.0 * numbers.seconds * speed;
     control.cellSize =
-        1.01 * (min(max(R + ahead, parameters.reachFactor * R), parameters.listedAhead * R) + parameters.skin);
+        1.01 * (min(max(R + ahead, numbers.reachFactor * R), numbers.listedAhead * R) + numbers.skin);
     control.cellsPerMetre = 1.0 / control.cellSize;
   }
   if (!asks && !isJudgedLater()) judgeLists();

@@ -30,7 +30,7 @@ bool mayTouch(uvec4 own, uint strand) {
 bool rowHasOthers(uint first, uint group) {
   bool others = false;
   for (uint k = 0; k < 3; ++k)
-    others = others || hasOthers(grid[cellGroups((first + k) & (parameters.bucketCount - 1))], group);
+    others = others || hasOthers(grid[cellGroups((first + k) & (numbers.bucketCount - 1))], group);
   return others;
 }
 
@@ -41,13 +41,13 @@ const int kSearchRows = 9;  // of three cells along x
 // the driver ended a loop early.
 bool search(uint c, vec3 position, vec3 velocity, uint group, float skin, int row, int rowEnd) {
   rest = contactOf(c);
-  uvec4 ownNeighbours = parameters.everyPair != 0 ? uvec4(0) : neighbourRecord(rest.strand);
+  uvec4 ownNeighbours = numbers.everyPair != 0 ? uvec4(0) : neighbourRecord(rest.strand);
   precise vec3 here = position;
   x = here;
   v = velocity;
   // An upper bound of the reach of all pairs: by the largest radius, and by the largest speed.
-  float mostR = rest.radius + parameters.largestRadius;
-  precise float farthest = min(parameters.listedAhead * mostR + skin, control.cellSize);
+  float mostR = rest.radius + numbers.largestRadius;
+  precise float farthest = min(numbers.listedAhead * mostR + skin, control.cellSize);
   ivec3 cell = cellOf(x);
   uint placed = placedCount();
   uint wanted = rowEnd - row;  // turns that the loops below should make; `made` counts those they made
@@ -57,8 +57,8 @@ bool search(uint c, vec3 position, vec3 velocity, uint group, float skin, int ro
     ivec3 middle = cell + ivec3(0, row % 3 - 1, row / 3 - 1);
     uint first = bucketOf(middle - ivec3(1, 0, 0));
     uint entry = startOf(first);
-    uint entries = startOf(min(first + 3, parameters.bucketCount)) - entry;
-    if (first + 3 > parameters.bucketCount) entries += startOf(first + 3 - parameters.bucketCount);
+    uint entries = startOf(min(first + 3, numbers.bucketCount)) - entry;
+    if (first + 3 > numbers.bucketCount) entries += startOf(first + 3 - numbers.bucketCount);
     if (kInGroups && !rowHasOthers(first, group)) entries = 0;
     if (entries > 0) do {
       if (entry == placed) entry = 0;
@@ -82,9 +82,9 @@ bool search(uint c, vec3 position, vec3 velocity, uint group, float skin, int ro
         near &= near - 1;
         ++made;
         vec3 apart = x - uintBitsToFloat(placedPosition(entry + k).xyz);
-        float ahead = parameters.seconds * length(v - uintBitsToFloat(placedVelocity(entry + k).xyz));
-        float acting = max(mostR + ahead, parameters.reachFactor * mostR);
-        float reach = 1.0001 * (min(acting, parameters.listedAhead * mostR) + skin);
+        float ahead = numbers.seconds * length(v - uintBitsToFloat(placedVelocity(entry + k).xyz));
+        float acting = max(mostR + ahead, numbers.reachFactor * mostR);
+        float reach = 1.0001 * (min(acting, numbers.listedAhead * mostR) + skin);
         if (dot(apart, apart) < reach * reach) meeting |= 1u << k;
       } while (near != 0);
       wanted += bitCount(meeting);
@@ -103,7 +103,7 @@ bool search(uint c, vec3 position, vec3 velocity, uint group, float skin, int ro
         float R = rest.radius + other.radius;
         float r0 = contactRestLength(R, distance(rest.point, other.point));
         if (!isCandidate || !isSought(foundAt, otherVelocity, other.particle, r0)) continue;
-        if (parameters.everyPair == 0 && !mayTouch(ownNeighbours, other.strand)) continue;
+        if (numbers.everyPair == 0 && !mayTouch(ownNeighbours, other.strand)) continue;
         take(other, R, r0);
       } while (meeting != 0);
       entry += looked;

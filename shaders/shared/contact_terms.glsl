@@ -19,16 +19,16 @@ const ContactTerms kNoTerms = ContactTerms(Symmetric(vec3(0), vec3(0)), vec3(0),
 void addWeights(inout ContactTerms terms, ContactWeights weights, vec3 normal, float gap, vec3 v) {
   float tangential = weights.tangential;
   terms.D = addOuter(addDiagonal(terms.D, tangential), weights.spring + weights.damping - tangential, normal);
-  terms.push += contactPush(weights.spring, gap, parameters.seconds) * normal;
+  terms.push += contactPush(weights.spring, gap, numbers.seconds) * normal;
   terms.momentum += contactMultiply(weights, normal, v);
 }
 
 /// Adds a contact with the distance taper. pushes: the spring acts as well as the damper.
 void addContact(inout ContactTerms terms, ContactPair pair, ContactMeeting meeting, bool pushes, vec3 v) {
-  float T = parameters.seconds;
-  float delta = dampingAt(meeting.distance, pair.restLength, parameters);
+  float T = numbers.seconds;
+  float delta = dampingAt(meeting.distance, pair.restLength, numbers);
   ContactWeights weights =
-      contactWeights(pushes ? T * T * pair.stiffness : 0.0, T * pair.damping * delta, parameters);
+      contactWeights(pushes ? T * T * pair.stiffness : 0.0, T * pair.damping * delta, numbers);
   addWeights(terms, weights, meeting.normal, pair.restLength - meeting.distance, v);
 }
 

@@ -43,7 +43,7 @@ vec4 turnTo(uint pose) {
 
 vec4 rotationAtStart(uint step) { return rotationAt(step); }
 vec4 rotationAtEnd(uint step) { return rotationAt(step + 1); }
-vec3 headVelocityChange(uint step) { return parameters.inertiaFactor * stepPose(step + 1).velocityChange; }
+vec3 headVelocityChange(uint step) { return inertiaFactor() * stepPose(step + 1).velocityChange; }
 
 /// Velocity of x, a place at the step's start, by the turn in this step [m/s].
 vec3 turningVelocity(uint step, vec3 x) { return displacement(turnTo(step + 1), x) / stepSeconds(); }

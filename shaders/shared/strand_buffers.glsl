@@ -68,6 +68,12 @@ layout(set = 0, binding = kBindParticleTexels) uniform usamplerBuffer particleTe
 layout(set = 0, binding = kBindStrandTexels) uniform usamplerBuffer strandTexels;
 layout(set = 0, binding = kBindOutsideForceTexels) uniform usamplerBuffer forceTexels;
 layout(push_constant) uniform Parameters { StepParameters parameters; };
+layout(set = 0, binding = kBindNumbers) uniform Numbers { HairNumbers numbers; };
+
+// Of what was cut off no head carries the first particle.
+vec3 gravity() { return kFalls ? numbers.fallGravity : numbers.gravity; }
+float inertiaFactor() { return kFalls ? 1.0 : numbers.inertiaFactor; }
+uint rootCount() { return kFalls ? 1u : numbers.rootCount; }
 
 #ifdef RINGLET_HEADS
 layout(set = 0, binding = kBindHeadPoseTexels) uniform usamplerBuffer headPoseTexels;
@@ -119,8 +125,8 @@ EdgeFactors edgeFactors(uint i) {
 }
 // External acceleration of particle i [m/s^2]: gravity and forces from outside.
 vec3 pullOn(uint i) {
-  if (!kForces) return parameters.gravity;
-  return parameters.gravity + (kTexels ? vectorAt(forceTexels, i) : forces[i]).xyz;
+  if (!kForces) return gravity();
+  return gravity() + (kTexels ? vectorAt(forceTexels, i) : forces[i]).xyz;
 }
 StrandRest strandRest(uint s) {
   if (!kTexels) return strands[s];
@@ -176,7 +182,7 @@ vec4 goalAtFrameEnd(uint i) { return kTexels ? vectorAt(goalTexels, i) : goals[i
 StrandRest strand;  // the strand of this invocation
 uint strandAt;      // its index, device order
 
-float stepSeconds() { return parameters.seconds; }
+float stepSeconds() { return numbers.seconds; }
 
 // Factor from the strand's constants to those of an edge.
 float edgeScaleOf(float edgeLength) { return kIntegrator == kIntegratorPaper ? 1.0 : 1.0 / edgeLength; }

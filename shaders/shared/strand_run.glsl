@@ -47,10 +47,10 @@ bool isParticle(int k) { return first + k < strand.particleCount; }
 bool isCutEdge(int k) { return kFalls && first + k == 0; }
 bool isOwn(int k) { return isParticle(k) && !isCutEdge(k); }
 bool isEdge(int k) { return first + k + 1 < strand.particleCount && !isCutEdge(k); }
-bool isPinned(int k) { return k < int(kMaxRootCount) && first + k < parameters.rootCount; }
+bool isPinned(int k) { return k < int(kMaxRootCount) && first + k < rootCount(); }
 bool isFree(int k) { return isParticle(k) && !isPinned(k); }
 
-float edgeLengthOf(int k) { return restEdge[k].y / parameters.maxStretch; }
+float edgeLengthOf(int k) { return restEdge[k].y / numbers.maxStretch; }
 // Of stretch and core: stiffness and damping.
 vec2 stretchOf(int k) {
   vec2 spring = vec2(strand.stretchStiffness, strand.stretchDamping) * restEdge[k].w;
@@ -68,8 +68,8 @@ float bendDampingOf(int k) {
 
 // What pulls on a kilogram of particle k [m/s^2]; beyond the tip gravity.
 vec3 pullOnRun(int k) {
-  if (!kForces) return parameters.gravity;  // first, so that no branch on a particle is left
-  return !isParticle(k) ? parameters.gravity : pullOn(strand.firstParticle + first + k);
+  if (!kForces) return gravity();  // first, so that no branch on a particle is left
+  return !isParticle(k) ? gravity() : pullOn(strand.firstParticle + first + k);
 }
 
 // The elastic force of the edge that ends at the run's first particle.

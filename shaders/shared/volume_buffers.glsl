@@ -38,6 +38,7 @@ layout(set = 0, binding = kBindVolumeCellTexels) uniform usamplerBuffer cellTexe
 layout(set = 0, binding = kBindVolumeAddedTexels) uniform usamplerBuffer addedTexels;
 layout(set = 0, binding = kBindVolumeSums) buffer Sums { int sums[]; };
 layout(push_constant) uniform Parameters { VolumeParameters parameters; };
+layout(set = 0, binding = kBindVolumeNumbers) uniform Numbers { VolumeNumbers numbers; };
 
 layout(constant_id = kSpecDivided) const bool kDivided = false;  // other devices step some of the strands
 layout(constant_id = kSpecForGpu) const bool kForGpu = false;
@@ -48,7 +49,7 @@ const uint kNodeLanes = kForGpu ? 4 : 1;
 /// Finds the volume particle of this invocation; false if there is none.
 bool findParticle(out uint i) {
   i = gl_GlobalInvocationID.x;
-  return halt.isHalted == 0 && i < parameters.count;
+  return halt.isHalted == 0 && i < numbers.count;
 }
 
 // Accessors of records, as these were when the dispatch began.
@@ -84,14 +85,14 @@ float countedMassOf(uint i) { return kTexels ? vectorAt(stateTexels, 3 * i + 1).
 vec3 inHeadFrame(vec3 x) { return rotate(conjugate(poses[parameters.step].rotation), x); }
 vec3 inWorld(vec3 x) { return rotate(poses[parameters.step].rotation, x); }
 /// Velocity of what the head carries rigidly, at x [m/s].
-vec3 carriedVelocity(vec3 x) { return displacement(poses[parameters.step + 1].turn, x) / parameters.seconds; }
+vec3 carriedVelocity(vec3 x) { return displacement(poses[parameters.step + 1].turn, x) / numbers.seconds; }
 
 // The parts of the buffer of cells, one after another.
 uint cellCount(uint cell) { return cell; }  // particles in a cell; 0 between two sorts
-uint cellStart(uint cell) { return parameters.cellCapacity + cell; }  // place of a cell's first particle
-uint cellSum(uint block) { return 2 * parameters.cellCapacity + block; }  // sum before a block of cells
-uint cellOf(uint i) { return cellSum(parameters.cellCapacity / kBucketBlock) + i; }
-uint cellRank(uint i) { return cellOf(parameters.count) + i; }  // rank in its cell, in arbitrary order
+uint cellStart(uint cell) { return numbers.cellCapacity + cell; }  // place of a cell's first particle
+uint cellSum(uint block) { return 2 * numbers.cellCapacity + block; }  // sum before a block of cells
+uint cellOf(uint i) { return cellSum(numbers.cellCapacity / kBucketBlock) + i; }
+uint cellRank(uint i) { return cellOf(numbers.count) + i; }  // rank in its cell, in arbitrary order
 
 /// A number of that buffer as it was when the dispatch began.
 uint cellNumber(uint at) { return kTexels ? recordAt(cellTexels, at / 4)[at % 4] : cells[at]; }
@@ -103,7 +104,7 @@ ivec3 cellAt(vec3 place, float cellsPerMetre) {
 }
 /// Extends the step's box of cells to the cell of a place.
 void reachTo(vec3 place) {
-  ivec3 cell = cellAt(place, 1.0 / parameters.cell);
+  ivec3 cell = cellAt(place, 1.0 / numbers.cell);
   for (int axis = 0; axis < 3; ++axis) {
     // Most cells lie inside the box so far, and a read costs less than an atomic.
     if (cell[axis] < control.least[axis]) atomicMin(control.least[axis], cell[axis]);
@@ -125,28 +126,28 @@ uint cellIndex(uvec3 cell) { return (cell.z * control.size[1] + cell.y) * contro
 // If strands are divided among devices, the parts of the buffer of sums: of each node eight numbers of gather, then of
 // each two of density, high and low (maths/split_sum.glsl).
 uint nodeSum(uint node) { return 8 * node; }
-uint densitySum(uint node) { return 8 * parameters.cellCapacity + 2 * node; }
+uint densitySum(uint node) { return 8 * numbers.cellCapacity + 2 * node; }
 /// The mean of a at a node [m/s], from the sums of its terms' units.
-vec3 meanRate(vec4 sum) { return sum.w > 0.0 ? parameters.mostRate * sum.xyz / sum.w : vec3(0); }
+vec3 meanRate(vec4 sum) { return sum.w > 0.0 ? numbers.mostRate * sum.xyz / sum.w : vec3(0); }
 /// The density at a node [kg/m^3], likewise.
 float densityFrom(float units) {
-  return units / parameters.unitsPerMass * control.cellsPerMetre * control.cellsPerMetre * control.cellsPerMetre;
+  return units / numbers.unitsPerMass * control.cellsPerMetre * control.cellsPerMetre * control.cellsPerMetre;
 }
 
 /// The gain kappa: g is kappa times the mass m o.
-float gain() { return volumeGain(parameters.drag, parameters.stiffness, parameters.seconds); }
+float gain() { return volumeGain(numbers.drag, numbers.stiffness, numbers.seconds); }
 /// What a mass m o at x with velocity v contributes to the nodes, as VolumeParcel's rate. An a that the sums have no
 /// room for is cut, and counted. seen: control.largest, as it was when the dispatch began.
 vec4 rateFrom(float mass, vec3 v, vec3 x, vec3 s, uint seen) {
   vec3 w = inHeadFrame(v - carriedVelocity(x));
   vec3 share =
-      volumeRate(parameters.drag, parameters.stiffness, parameters.seconds, w, s) / parameters.mostRate;
+      volumeRate(numbers.drag, numbers.stiffness, numbers.seconds, w, s) / numbers.mostRate;
   vec3 size = abs(share);
   float largest = max(size.x, max(size.y, size.z));
   // Bits of positive floats are ordered as the floats are. What was cut off has no mass.
   if (mass > 0.0 && floatBitsToUint(largest) > seen) atomicMax(control.largest, floatBitsToUint(largest));
   if (mass > 0.0 && largest > 1.0) atomicAdd(control.cut, 1);
-  float units = parameters.unitsPerGain * mass * gain();
+  float units = numbers.unitsPerGain * mass * gain();
   return vec4(units * clamp(share, -1.0, 1.0), units);
 }
 

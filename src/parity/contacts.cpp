@@ -9,6 +9,7 @@
 
 #include "reference/step.h"
 #include "ringlet/groom/generate.h"
+#include "ringlet/solver/diagnostics.h"
 
 namespace ringlet::parity {
 namespace {
@@ -63,7 +64,7 @@ Result<ListComparison> compareLists(const ComputeDevice& device, const std::vect
                                     const Settings& settings) {
   const auto simulation = stepAt(device, points, settings);
   if (!simulation) return simulation.error();
-  const auto contacts = simulation->listedContacts();
+  const auto contacts = Diagnostics(*simulation).listedContacts();
   if (!contacts) return contacts.error();
   const auto report = simulation->contactReport();
   if (!report) return report.error();
@@ -135,14 +136,14 @@ Result<double> shakenError(
   auto simulation = Simulation::create(device, groom, {}, settings, {}, kernel);
   if (!simulation) return simulation.error();
   reference::Simulation<double> reference(groom, {}, settings);
-  if (kernel.goals) {  // the groom itself, a few weights a centimetre
+  if (kernel.features.goals) {  // the groom itself, a few weights a centimetre
     std::vector<Vec3f> places;
     for (const Vec3f& p : groom.points) places.push_back(p * static_cast<float>(groom.metresPerUnit));
     const std::vector<float> strengths(places.size(), 3.f);
     if (Status set = simulation->setGoals(places, strengths); !set) return set.error();
     reference.setGoals(places, strengths, 1);
   }
-  if (kernel.fields) {
+  if (kernel.features.fields) {
     // Gentle ones: a strong field presses pairs to where float and double go different ways.
     std::vector<ForceField> fields = sampleFields({}, 0);
     std::erase_if(fields, [](const ForceField& f) { return f.name != "along" && f.name != "vortex"; });

@@ -52,8 +52,8 @@ Groom bunchAndStrands();
 Settings meetingSettings();
 
 /// A groom with the head shaken, device against the double reference: the largest distance of a particle in
-/// any frame [m]; with kernel.goals, pulled to the groom; with kernel.fields, in fields. `afterFrame` sees
-/// both after each frame, and may cut them.
+/// any frame [m]; with kernel.features.goals, pulled to the groom; with kernel.features.fields, in fields.
+/// `afterFrame` sees both after each frame, and may cut them.
 Result<double> shakenError(
     const ComputeDevice& device, const Groom& groom, const Settings& settings, const KernelChoice& kernel,
     int frameCount, const std::function<void(Simulation&, reference::Simulation<double>&)>& afterFrame);

@@ -92,7 +92,8 @@ std::vector<Body> bodiesAmongStrands() {
 
 // All that acts on hair by itself, in one case.
 ParityCase surroundedCase() {
-  ParityCase c{someStrands(), {}, {}, {.movingRoots = true, .forces = true, .goals = true, .fields = true}};
+  ParityCase c{
+      someStrands(), {}, {}, {.features = {.roots = true, .forces = true, .goals = true, .fields = true}}};
   c.settings.air = {
       .on = true, .fallSpeed = 3, .alongShare = 0.2, .wind = {2, -0.5, 1}, .gust = 0.5, .turbulence = 1};
   c.bodies = bodiesAmongStrands();
@@ -163,9 +164,9 @@ void addSurroundings(std::vector<InputCase>& cases) {
   cases.push_back(step("among all that acts", surroundedCase(), kOneStepAmongBodies));
   cases.push_back(frames("among all that acts", surroundedCase(), 2, kOneFrameAmongBodies));
   ParityCase heads = surroundedCase();
-  heads.kernel = {.heads = 4, .goals = true, .fields = true};
+  heads.kernel = {.heads = 4, .features = {.goals = true, .fields = true}};
   cases.push_back(frames("one of many heads among all that acts", heads, 1, kOneFrameAmongBodies));
-  ParityCase lying{someStrands(), {}, {}, {.goals = true}};
+  ParityCase lying{someStrands(), {}, {}, {.features = {.goals = true}}};
   lying.settings.goal.shape = true;
   cases.push_back(step("goals of edges", lying));
   ParityCase cut = surroundedCase();

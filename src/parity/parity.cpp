@@ -200,7 +200,7 @@ std::vector<Vec3d> rootShifts(const ParityCase& c) {
 class RootWays {
  public:
   RootWays(const ParityCase& c) {
-    if (!c.kernel.movingRoots) return;
+    if (!c.kernel.features.roots) return;
     Random random(c.seed + 2000);
     for (std::size_t s = 0; s < c.groom.strandCount(); ++s) {
       Way way;
@@ -248,7 +248,7 @@ HairState startOf(const ParityCase& c, const HeadPose& head, const RootWays& roo
 std::vector<Vec3f> randomForces(const ParityCase& c) {
   std::vector<Vec3f> forces;
   Random random(c.seed + 3000);
-  for (std::size_t i = 0; c.kernel.forces && i < c.groom.points.size(); ++i)
+  for (std::size_t i = 0; c.kernel.features.forces && i < c.groom.points.size(); ++i)
     forces.push_back(static_cast<Vec3f>(random.vector() * 30.0));
   return forces;
 }
@@ -261,7 +261,7 @@ struct RandomGoals {
     Random random(c.seed + 4000);
     const double off = c.settings.goal.shape ? 0.001 : 0.03;  // [m]
     const float most = c.settings.goal.shape ? 10 : 300;
-    for (std::size_t i = 0; c.kernel.goals && i < c.groom.points.size(); ++i) {
+    for (std::size_t i = 0; c.kernel.features.goals && i < c.groom.points.size(); ++i) {
       const Vec3d way = random.vector();
       const Vec3f place = c.groom.points[i] * static_cast<float>(c.groom.metresPerUnit);
       first.push_back(place);
@@ -281,7 +281,7 @@ struct RandomGoals {
 // In the step from `from` to `to` [s], about the head, where they are asked for.
 template <class Hair>
 void setSampleFields(Hair& hair, const ParityCase& c, const HeadPose& head, double from, double to) {
-  if (!c.kernel.fields) return;
+  if (!c.kernel.features.fields) return;
   (void)hair.setFields(sampleFields(head.position, to), sampleFields(head.position, from));
 }
 
@@ -390,7 +390,7 @@ std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c,
   double largestSpeed = 0;
   for (const auto& v : expected.velocities()) largestSpeed = std::max<double>(largestSpeed, v.norm());
 
-  const auto tap = [&](std::uint32_t field) { return *simulation->tap(field); };
+  const auto tap = [&](std::uint32_t field) { return *Diagnostics(*simulation).tap(field); };
   const auto smoothed = tap(layout::kTapSmoothedEdge), core = tap(layout::kTapCoreEdge),
              frames = tap(layout::kTapFrame), targets = tap(layout::kTapTarget),
              stretch = tap(layout::kTapStretchForce), bend = tap(layout::kTapBendForce),

@@ -47,9 +47,9 @@ struct ParityCase {
   Settings settings;  // stepsPerFrame is taken as 1
   KernelChoice kernel;
   std::uint32_t seed = 1;
-  // With kernel.movingRoots every strand has small poses of its own, with kernel.forces every particle a
-  // force of a few times its weight, with kernel.goals a place that it is pulled to, at random; with
-  // kernel.fields, sampleFields().
+  // With kernel.features.roots every strand has small poses of its own, with kernel.features.forces every
+  // particle a force of a few times its weight, with kernel.features.goals a place that it is pulled to, at
+  // random; with kernel.features.fields, sampleFields().
   std::vector<Body> bodies{};
   // Made one after the other before the first step. Of what falls positions and velocities are compared.
   std::vector<std::vector<StrandCut>> cuts{};

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -15,23 +16,16 @@ namespace {
 KernelChoice kernelOf(const AssetChoice& choice) {
   KernelChoice kernel = kernelNamed(choice.kernel);
   if (choice.heads < 1) throw py::value_error(fmt::format("heads must be 1 or more, got {}", choice.heads));
-  kernel.movingRoots = choice.movesRoots;
+  kernel.features = choice.features;
   kernel.heads = choice.heads;
-  kernel.forces = choice.hasForces;
-  kernel.goals = choice.hasGoals;
-  kernel.fields = choice.hasFields;
   return kernel;
 }
 
 std::string assetRepr(const AssetObject& a) {
-  const std::pair<bool, const char*> options[] = {{a.choice.hasBodies, "bodies"},
-                                                  {a.choice.movesRoots, "moving_roots"},
-                                                  {a.choice.hasForces, "forces"},
-                                                  {a.choice.hasGoals, "goals"},
-                                                  {a.choice.hasFields, "fields"}};
   std::string built;
-  for (const auto& [is, name] : options)
-    if (is) built += (built.empty() ? ", built for " : ", ") + std::string(name);
+  for (const FeatureName& feature : kFeatureNames)
+    if (a.choice.features.*feature.member)
+      built += (built.empty() ? ", with " : ", ") + std::string(feature.name);
   return fmt::format("<ringlet.Asset: {} strands, {} particles on {}{}>", a.asset.strandCount(),
                      a.asset.particleCount(), a.device->device.name(), built);
 }
@@ -52,15 +46,25 @@ KernelChoice kernelNamed(const std::string& name) {
   return kernel;
 }
 
+Features featuresNamed(const std::vector<std::string>& names) {
+  Features features;
+  std::vector<std::string> known;
+  for (const FeatureName& feature : kFeatureNames) known.emplace_back(feature.name);
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(kFeatureNames, name, &FeatureName::name);
+    if (found == kFeatureNames.end()) throw py::value_error(unknownName("feature", name, known));
+    features.*found->member = true;
+  }
+  return features;
+}
+
 AssetHandle buildAsset(DeviceHandle device, GroomHandle groom, const MaterialObject& material,
                        Settings settings, const AssetChoice& choice) {
   const KernelChoice kernel = kernelOf(choice);
   std::vector<std::string> warnings;
   const Material made = dialled(material, warnings);
-  HairAsset built = withoutGil([&] {
-    return valueOf(HairAsset::build(device->device, groom->groom(), made, settings, kernel,
-                                    choice.hasBodies ? BodyUse::some : BodyUse::none));
-  });
+  HairAsset built = withoutGil(
+      [&] { return valueOf(HairAsset::build(device->device, groom->groom(), made, settings, kernel)); });
   warnings.insert(warnings.end(), built.warnings().begin(), built.warnings().end());
   return std::make_shared<AssetObject>(AssetObject{.device = std::move(device),
                                                    .groom = std::move(groom),
@@ -78,20 +82,16 @@ void addAssets(py::module_& module) {
       .def(
           py::init([](const DeviceHandle& device, const GroomHandle& groom,
                       const std::optional<MaterialObject>& material, const std::optional<Settings>& settings,
-                      bool bodies, bool movingRoots, bool forces, bool goals, bool fields, int heads,
-                      const std::string& kernel) {
+                      const std::vector<std::string>& features, int heads, const std::string& kernel) {
             return buildAsset(device, groom, material.value_or(MaterialObject{}),
-                              settings.value_or(Settings{}),
-                              {bodies, movingRoots, forces, goals, fields, heads, kernel});
+                              settings.value_or(Settings{}), {featuresNamed(features), heads, kernel});
           }),
           py::arg("device").none(false), py::arg("groom").none(false), py::arg("material") = py::none(),
-          py::arg("settings") = py::none(), py::kw_only(), py::arg("bodies") = false,
-          py::arg("moving_roots") = false, py::arg("forces") = false, py::arg("goals") = false,
-          py::arg("fields") = false, py::arg("heads") = 1, py::arg("kernel") = "auto",
-          "material, settings: None: the default. bodies: whether hair will have some to stay out of, which "
-          "is slower; moving_roots: whether strands will have poses of their own; forces: whether some will "
-          "act on them from outside; goals: whether it will be pulled to places (set_goals); fields: whether "
-          "it will be in some (set_fields); heads: about how many will have this hair; kernel: \"auto\", "
+          py::arg("settings") = py::none(), py::kw_only(), py::arg("features") = std::vector<std::string>{},
+          py::arg("heads") = 1, py::arg("kernel") = "auto",
+          "material, settings: None: the default. features: names of what hair begins with, of \"bodies\", "
+          "\"roots\" (poses of strands' own), \"forces\", \"goals\" and \"fields\"; others are added when they are "
+          "first used, which compiles kernels; heads: about how many will have this hair; kernel: \"auto\", "
           "\"lanes\", \"memory\" or \"serial\". ringlet.Error, with what to do, for settings that do not go "
           "together or a device without enough memory.")
       .def_property_readonly(

@@ -15,8 +15,11 @@ namespace ringlet::python {
 /// "auto", "lanes", "memory" or "serial"; throws py::value_error.
 KernelChoice kernelNamed(const std::string& name);
 
+/// Of names, e.g. "bodies"; throws py::value_error.
+Features featuresNamed(const std::vector<std::string>& names);
+
 struct AssetChoice {
-  bool hasBodies = false, movesRoots = false, hasForces = false, hasGoals = false, hasFields = false;
+  Features features{};  // that hair begins with
   int heads = 1;
   std::string kernel = "auto";  // or lanes, memory, serial
 };

@@ -52,8 +52,6 @@ HairObject::Poses HairObject::posesOf(const Frame& frame) const {
         fmt::format("body_poses must have a pose for each of {} steps and {} bodies, got {}", steps,
                     bodyCount_, frame.bodies.size()));
   if (frame.roots.empty()) return poses;
-  if (!asset_->choice.movesRoots)
-    throw py::value_error("root_poses are for hair whose asset was built with moving_roots=True");
   if (frame.roots.size() != steps * asset_->asset.strandCount())
     throw py::value_error(
         fmt::format("root_poses must have a pose for each of {} steps and {} strands, got {}", steps,

@@ -10,6 +10,7 @@
 #include "python/settings.h"
 #include "ringlet/output/positions_hash.h"
 #include "ringlet/scene/outside_numbers.h"
+#include "ringlet/solver/diagnostics.h"
 
 namespace ringlet::python {
 namespace {
@@ -34,13 +35,6 @@ void demandEach(std::span<const Vec3f> vectors, const char* name, const NumberRa
     throw py::value_error(status.error().message);
 }
 
-// `option` is the argument of Asset.
-void demandBuiltFor(bool isBuiltForIt, const char* what, const char* option) {
-  if (!isBuiltForIt)
-    throw Failure({fmt::format("the hair's asset was built without {}: make it with Asset(..., {}=True)",
-                               what, option)});
-}
-
 HairObject::Frame frameOf(const py::object& head, const py::object& bodyPoses, const py::object& rootPoses) {
   return {headWayOf(head), bodyPosesOf(bodyPoses, "body_poses"), bodyPosesOf(rootPoses, "root_poses")};
 }
@@ -54,7 +48,6 @@ HairHandle newHair(const AssetHandle& asset, const py::object& head, const py::o
   if (!head.is_none()) initial.head = poseOf(head, "head");
   if (!oneStepEarlier.is_none()) initial.oneStepEarlier = poseOf(oneStepEarlier, "one_step_earlier");
   initial.bodies = bodies;
-  demandBuiltFor(asset->choice.hasBodies || bodies.empty(), "bodies", "bodies");
   const auto fits = [](const char* name, std::size_t count, std::size_t wanted, const char* what) {
     if (count != 0 && count != wanted)
       throw py::value_error(
@@ -67,8 +60,6 @@ HairHandle newHair(const AssetHandle& asset, const py::object& head, const py::o
   std::vector<BodyPose> earlier = bodyPosesOf(rootsEarlier, "roots_earlier");
   fits("roots", now.size(), strands, "strands");
   fits("roots_earlier", earlier.size(), strands, "strands");
-  if ((!now.empty() || !earlier.empty()) && !asset->choice.movesRoots)
-    throw py::value_error("roots are for hair whose asset was built with moving_roots=True");
   if (now.empty() && !earlier.empty()) throw py::value_error("roots_earlier takes roots, where they are now");
   if (earlier.empty()) earlier = now;
   initial.roots = now, initial.rootsEarlier = earlier;
@@ -118,7 +109,7 @@ py::dict contactReportOf(HairObject& self) {
 }
 
 py::dict memoryOf(HairObject& self) {
-  const DeviceMemory m = self.ask([](Simulation& s) { return s.memory(); });
+  const DeviceMemory m = self.ask([](Simulation& s) { return Diagnostics(s).memory(); });
   py::dict memory;
   memory["particles"] = m.particles, memory["strands"] = m.strands, memory["root_poses"] = m.rootPoses;
   memory["contacts"] = m.contacts, memory["contact_lists"] = m.contactLists, memory["volume"] = m.volume;
@@ -155,16 +146,15 @@ void addHairClass(py::module_& module) {
       module, "Hair",
       "The hair of one head. It is at rest when it is made. A frame is as many steps as the settings say.\n\n"
       "An error of the device loses it: everything that is asked of it then raises ringlet.Error again.")
-      .def(
-          py::init(&newHair), py::arg("asset").none(false), py::kw_only(), py::arg("head") = py::none(),
-          py::arg("one_step_earlier") = py::none(), py::arg("bodies") = std::vector<BodyObject>{},
-          py::arg("body_places") = py::none(), py::arg("roots") = py::none(),
-          py::arg("roots_earlier") = py::none(), py::arg("root_shifts") = py::none(),
-          "head: where the head is, a Pose; one_step_earlier: where it was one step before, so that hair "
-          "moves with it. bodies: a list of Body, of an asset with bodies=True; body_places: where they are "
-          "in the world, (bodies, 7); None: where they are at t = 0. roots, roots_earlier: of an asset with "
-          "moving_roots=True, strands' own poses now and one step before, (strands, 7). root_shifts: how far "
-          "each root moves beside the head at shift 1, (strands, 3) [m].")
+      .def(py::init(&newHair), py::arg("asset").none(false), py::kw_only(), py::arg("head") = py::none(),
+           py::arg("one_step_earlier") = py::none(), py::arg("bodies") = std::vector<BodyObject>{},
+           py::arg("body_places") = py::none(), py::arg("roots") = py::none(),
+           py::arg("roots_earlier") = py::none(), py::arg("root_shifts") = py::none(),
+           "head: where the head is, a Pose; one_step_earlier: where it was one step before, so that hair "
+           "moves with it. bodies: a list of Body; body_places: where they are "
+           "in the world, (bodies, 7); None: where they are at t = 0. roots, roots_earlier: "
+           "strands' own poses now and one step before, (strands, 7). root_shifts: how far "
+           "each root moves beside the head at shift 1, (strands, 3) [m].")
       .def(
           "step",
           [](HairObject& self, const py::object& head, const py::object& bodyPoses,
@@ -246,9 +236,17 @@ void addHairClass(py::module_& module) {
            "set_material(bend_stiffness=8). How far hair may lengthen is a setting, max_stretch. "
            "ringlet.Error for a number that cannot change while hair moves, and nothing changes.")
       .def(
+          "prepare",
+          [](HairObject& self, const std::vector<std::string>& features) {
+            const Features wanted = featuresNamed(features);
+            self.ask([&](Simulation& simulation) { demand(simulation.prepare(wanted)); });
+          },
+          py::arg("features"),
+          "Adds features (as Asset's) now, which waits for frames in flight and compiles kernels; else their "
+          "first use does.")
+      .def(
           "set_bodies",
           [](HairObject& self, const std::vector<BodyObject>& bodies, const py::object& places) {
-            demandBuiltFor(self.asset()->choice.hasBodies || bodies.empty(), "bodies", "bodies");
             self.setBodies(bodiesOf(bodies), bodyPosesOf(places, "places"));
           },
           py::arg("bodies"), py::arg("places") = py::none(),
@@ -259,13 +257,11 @@ void addHairClass(py::module_& module) {
           [](HairObject& self, const py::object& forces) {
             const PointsIn taken(forces, "forces", self.asset()->groom->particleCount());
             demandEach(taken.points(), "forces", kOutsideForce, "m/s^2");
-            demandBuiltFor(self.asset()->choice.hasForces, "forces", "forces");
             self.ask([&](Simulation& simulation) { demand(simulation.setForces(taken.points())); });
           },
           py::arg("forces"),
           "Forces from outside from the next frame on, on each kilogram of every particle [m/s^2]: "
-          "(particles, 3) float32. They add to gravity and hold until others are set. ringlet.Error for hair "
-          "whose asset was built without forces=True.")
+          "(particles, 3) float32. They add to gravity and hold until others are set.")
       .def(
           "set_goals",
           [](HairObject& self, const py::object& places, const py::object& strengths, double damping) {
@@ -276,7 +272,6 @@ void addHairClass(py::module_& module) {
             if (!kGoalDamping.contains(damping))
               throw py::value_error(fmt::format("damping is from {} to {}, got {}", kGoalDamping.low,
                                                 kGoalDamping.high, damping));
-            demandBuiltFor(self.asset()->choice.hasGoals || self.asset()->settings.goal.on, "goals", "goals");
             self.ask(
                 [&](Simulation& simulation) { demand(simulation.setGoals(taken.points(), pulls, damping)); });
           },
@@ -285,7 +280,7 @@ void addHairClass(py::module_& module) {
           "carried by the head; groom.points times metres_per_unit is the rest pose. They are reached at the "
           "end of the next frame and hold until others are set. strengths: of all particles, or one of each, "
           "(particles,): weights of the hair a centimetre from its place, 0 or more. damping: ratio about "
-          "the place, 1 is critical. ringlet.Error for hair whose asset was built without goals=True.")
+          "the place, 1 is critical.")
       .def(
           "cut",
           [](HairObject& self, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& cuts) {
@@ -307,13 +302,12 @@ void addHairClass(py::module_& module) {
             if (!from.empty() && from.size() != fields.size())
               throw py::value_error(
                   fmt::format("there are {} fields, and {} that they come from", fields.size(), from.size()));
-            demandBuiltFor(self.asset()->choice.hasFields, "fields", "fields");
             self.ask([&](Simulation& simulation) { demand(simulation.setFields(fields, from)); });
           },
           py::arg("fields"), py::arg("come_from") = py::list(),
           "Fields as they are at the end of the next frame, any number up to 64; they hold until others are "
           "set. come_from: the same ones at its start, from where they change evenly; without, they are "
-          "there at once. ringlet.Error for hair whose asset was built without fields=True.")
+          "there at once.")
       .def(
           "checkpoint",
           [](HairObject& self) {
@@ -346,7 +340,9 @@ void addHairClass(py::module_& module) {
            "Bytes of its buffers on the device, by what they are for, and their total: a dict.")
       .def(
           "stage_milliseconds",
-          [](HairObject& self) { return self.ask([](Simulation& s) { return s.stageMilliseconds(); }); },
+          [](HairObject& self) {
+            return self.ask([](Simulation& s) { return Diagnostics(s).stageMilliseconds(); });
+          },
           "Time spent on the device so far, by stage [ms]: a dict. Frames of step_frames are not counted.")
       .def_property_readonly(
           "head", [](HairObject& self) { return self.ask([](Simulation& s) { return s.head(); }); },
@@ -356,11 +352,13 @@ void addHairClass(py::module_& module) {
           "What one should know of it: a list of sentences.")
       .def_property_readonly(
           "kernel",
-          [](HairObject& self) { return self.ask([](Simulation& s) { return s.kernelDescription(); }); },
+          [](HairObject& self) { return self.ask([](Simulation& s) { return Diagnostics(s).kernels(); }); },
           "The kernels in use, as \"lanes 4 x 16 (subgroup 8)\".")
       .def_property_readonly(
           "compile_milliseconds",
-          [](HairObject& self) { return self.ask([](Simulation& s) { return s.compileMilliseconds(); }); },
+          [](HairObject& self) {
+            return self.ask([](Simulation& s) { return Diagnostics(s).compileMilliseconds(); });
+          },
           "What it took to make the kernels [ms].")
       .def_property_readonly(
           "asset", [](const HairObject& self) { return self.asset(); }, "The Asset.")

@@ -126,15 +126,9 @@ HairHandle startHair(const SceneObject& self, DeviceHandle device, const std::st
     device = std::make_shared<DeviceObject>(
         DeviceObject{withoutGil([] { return valueOf(ComputeDevice::open()); })});
   const LoadedScene& scene = self.loaded;
-  const KernelChoice needs = kernelOf(scene);
   const AssetHandle asset =
       buildAsset(std::move(device), self.groom, MaterialObject{scene.material, {}}, scene.settings,
-                 {.hasBodies = !scene.bodies.empty(),
-                  .movesRoots = needs.movingRoots,
-                  .hasGoals = needs.goals,
-                  .hasFields = needs.fields,
-                  .heads = 1,
-                  .kernel = kernel});
+                 {.features = featuresOf(scene), .heads = 1, .kernel = kernel});
   const SceneFrames frames(scene);
   const ScenePlaces start = frames.placesAt(frames.first());
   HairHandle hair = makeHair(asset, stateOf(start, scene));

@@ -22,8 +22,8 @@ Result<LiveHair> LiveHair::create(const ComputeDevice& device, const LoadedScene
 }
 
 Status LiveHair::build(const SceneMoment& now) {
-  auto asset = HairAsset::build(*device_, scene_->groom, numbers_.material, numbers_.settings,
-                                kernelOf(*scene_), scene_->bodies.empty() ? BodyUse::none : BodyUse::some);
+  auto asset =
+      HairAsset::build(*device_, scene_->groom, numbers_.material, numbers_.settings, kernelOf(*scene_));
   if (!asset) return asset.error();
   asset_ = std::move(*asset);
   built_ = numbers_;

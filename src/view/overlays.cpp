@@ -1,5 +1,6 @@
 // Implements view/overlays.h.
 #include "view/overlays.h"
+#include "ringlet/solver/diagnostics.h"
 
 #include <imgui.h>
 
@@ -68,7 +69,7 @@ void drawStrandFrames(const Lines& lines, const Groom& groom, const std::vector<
 
 Status drawContacts(const Lines& lines, const Simulation& hair, const std::vector<Vec3f>& positions,
                     Vec3d head) {
-  const auto listed = hair.listedContacts();
+  const auto listed = Diagnostics(hair).listedContacts();
   if (!listed) return listed.error();
   std::size_t count = 0;
   for (const ListedContact& contact : *listed) {

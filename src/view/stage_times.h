@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "ringlet/solver/diagnostics.h"
 #include "view/live_hair.h"
 
 namespace ringlet::view {
@@ -23,7 +24,7 @@ class StageTimes {
     solved_.resize(hairs.size(), 0);
     for (std::size_t k = 0; k < hairs.size(); ++k) {
       double total = 0;
-      for (const auto& [stage, milliseconds] : hairs[k].simulation().stageMilliseconds())
+      for (const auto& [stage, milliseconds] : Diagnostics(hairs[k].simulation()).stageMilliseconds())
         total += milliseconds;
       add("solve", total < solved_[k] ? total : total - solved_[k]);  // less: the hair is another
       solved_[k] = total;

@@ -19,6 +19,7 @@
 
 #include "ringlet/gpu/recorder.h"
 #include "ringlet/output/picture.h"
+#include "ringlet/solver/diagnostics.h"
 #include "view/canvas.h"
 #include "view/mouse_control.h"
 #include "view/overlays.h"
@@ -360,7 +361,7 @@ ViewOutcome Viewer::outcome() {
   outcome_.stages = times_.means();
   outcome_.sceneFrames = session_->frame();
   for (const LiveHair& hair : session_->hairs()) {
-    outcome_.deviceBytes += hair.simulation().memory().total();
+    outcome_.deviceBytes += Diagnostics(hair.simulation()).memory().total();
     const auto& warnings = hair.simulation().warnings();
     outcome_.warnings.insert(outcome_.warnings.end(), warnings.begin(), warnings.end());
   }

@@ -14,6 +14,7 @@
 #include "ringlet/gpu/recorder.h"
 #include "ringlet/groom/generate.h"
 #include "ringlet/render/strand_points.h"
+#include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/simulation.h"
 #include "tests/support/gpu_test.h"
 
@@ -74,7 +75,7 @@ using DevicePoseTest = GpuTest;
 
 TEST_F(DevicePoseTest, GuidesAreThoseThatTheHostHandsOver) {
   const Moved moved = movedHair(device());
-  ASSERT_EQ(moved.hair->rigidStrandCount(), 1u);
+  ASSERT_EQ(Diagnostics(*moved.hair).rigidStrandCount(), 1u);
   std::vector<GuideRest> guides;
   for (std::size_t s = 0; s < moved.groom.strandCount(); ++s) {
     const auto first = moved.rest.begin() + moved.groom.firstPoint[s];

@@ -121,10 +121,10 @@ TEST_F(BodyStep, AnEdgeAloneAgrees) {
   }
 }
 
-// With air, and with roots of their own (KernelChoice::movingRoots).
+// With air, and with roots of their own (Features::roots).
 TEST_F(BodyStep, MovingRootsAgree) {
   for (Variant variant : {kAutomatic, kVariants.back()}) {
-    variant.kernel.movingRoots = true;
+    variant.kernel.features.roots = true;
     ParityCase c{randomGroom(variant.lengths, 15),    {}, {}, variant.kernel, 5,
                  amongStrands(sampleBodies().front())};
     c.settings.air = {.on = true, .fallSpeed = 2, .wind = {5, 0, 1}, .turbulence = 1};

@@ -26,7 +26,7 @@ using Words = std::vector<std::uint32_t>;
 struct Scan {
   const char* name;
   gpu::KernelDescription kernel;
-  std::uint32_t bindNumbers, bindControl;
+  std::uint32_t bindNumbers, bindControl, bindUniform;
   std::size_t controlBytes, finishedAt;
   bool endsWithAll;  // one more start and sum, of what lies beyond the last bucket
 };
@@ -34,25 +34,27 @@ struct Scan {
 class BucketStarts : public GpuTest {
  protected:
   // The buffer after the kernel ran on these counts.
-  template <class Parameters>
-  Words after(const Scan& scan, const Words& before, std::uint32_t blocks, const Parameters& parameters,
+  template <class Parameters, class Uniform>
+  Words after(const Scan& scan, const Words& before, std::uint32_t blocks, const Uniform& uniform,
               gpu::Buffer& control) {
     auto kernel = gpu::Kernel::create(gpu(), scan.kernel);
     auto numbers = createFilled(gpu(), before, "numbers");
     auto unused = createZero(gpu(), 4096, "unused");
-    EXPECT_TRUE(kernel && numbers && unused);
-    gpu::BufferTable buffers{{scan.bindNumbers, *numbers}, {scan.bindControl, control}};
+    auto uniforms = createFilled(gpu(), std::vector{uniform}, "uniform");
+    EXPECT_TRUE(kernel && numbers && unused && uniforms);
+    gpu::BufferTable buffers{
+        {scan.bindNumbers, *numbers}, {scan.bindControl, control}, {scan.bindUniform, *uniforms}};
     for (const auto& [number, kind] : (*kernel)->bindings()) buffers.emplace(number, *unused);
     auto bindings = gpu::Bindings::create(**kernel, buffers);
     auto recorder = gpu::Recorder::create(gpu(), "starts");
     EXPECT_TRUE(bindings && recorder && recorder->begin());
-    recorder->dispatch(**kernel, *bindings, parameters, blocks);
+    recorder->dispatch(**kernel, *bindings, Parameters{}, blocks);
     EXPECT_TRUE(recorder->submitAndWait());
     return *downloadAll<std::uint32_t>(*numbers, before.size());
   }
 
-  template <class Parameters>
-  void expectPrefixSums(const Scan& scan, std::uint32_t blocks, const Parameters& parameters) {
+  template <class Parameters, class Uniform>
+  void expectPrefixSums(const Scan& scan, std::uint32_t blocks, const Uniform& uniform) {
     const std::uint32_t buckets = blocks * layout::kBucketBlock, more = scan.endsWithAll ? 1 : 0;
     const std::size_t sumsAt = 2 * std::size_t{buckets} + more;
     auto control = createZero(gpu(), scan.controlBytes, "control");
@@ -63,7 +65,7 @@ class BucketStarts : public GpuTest {
       for (std::uint32_t b = 0; b < buckets; ++b) numbers[b] = static_cast<std::uint32_t>(random() % 5);
       Words starts(buckets + 1);
       std::partial_sum(numbers.begin(), numbers.begin() + buckets, starts.begin() + 1);
-      const Words found = after(scan, numbers, blocks, parameters, *control);
+      const Words found = after<Parameters>(scan, numbers, blocks, uniform, *control);
       std::size_t wrong = 0, left = 0;
       for (std::uint32_t b = 0; b < buckets + more; ++b) {
         const std::uint32_t start = found[buckets + b] + found[sumsAt + b / layout::kBucketBlock];
@@ -85,6 +87,7 @@ TEST_F(BucketStarts, ArePrefixSums) {
       describeContactKernel(ContactKernel::scan, ContactTaper::distance, false, 64, false, false),
       layout::kBindGrid,
       layout::kBindControl,
+      layout::kBindContactNumbers,
       sizeof(layout::ContactControl),
       offsetof(layout::ContactControl, finished),
       true};
@@ -92,16 +95,17 @@ TEST_F(BucketStarts, ArePrefixSums) {
                     describeVolumeKernel(VolumeKernel::scan, false, false),
                     layout::kBindVolumeCells,
                     layout::kBindVolumeControl,
+                    layout::kBindVolumeNumbers,
                     sizeof(layout::VolumeControl),
                     offsetof(layout::VolumeControl, finished),
                     false};
   for (const std::uint32_t blocks : {1u, 2u, 63u, 64u, 65u, 500u}) {
-    layout::ContactParameters ofContacts{};
+    layout::ContactNumbers ofContacts{};
     ofContacts.bucketCount = blocks * layout::kBucketBlock;
-    expectPrefixSums(contacts, blocks, ofContacts);
-    layout::VolumeParameters ofVolume{};
+    expectPrefixSums<layout::ContactParameters>(contacts, blocks, ofContacts);
+    layout::VolumeNumbers ofVolume{};
     ofVolume.cellCapacity = blocks * layout::kBucketBlock;
-    expectPrefixSums(volume, blocks, ofVolume);
+    expectPrefixSums<layout::VolumeParameters>(volume, blocks, ofVolume);
   }
 }
 

@@ -164,7 +164,7 @@ TEST_F(CFiles, AMeshIsTheSurfaceOfABody) {
   const Groom groom = randomGroom({12, 9}, 3);
   const CGroom from(groom);
   ringlet_asset_options options = RINGLET_INIT(ringlet_asset_options);
-  options.has_bodies = 1;
+  options.features = RINGLET_BODIES;
   ASSERT_EQ(ringlet_asset_build(c.device, &from.groom, nullptr, nullptr, &options, &c.asset), RINGLET_OK);
   ASSERT_EQ(ringlet_hair_create(c.asset, nullptr, &c.hairs.emplace_back()), RINGLET_OK);
   EXPECT_EQ(ringlet_hair_set_bodies(c.hairs[0], &body, 1), RINGLET_OK) << ringlet_error_message();

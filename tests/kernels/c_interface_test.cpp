@@ -11,6 +11,7 @@
 
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/scene/settings_fields.h"
+#include "ringlet/solver/diagnostics.h"
 #include "tests/kernels/c_handles.h"
 #include "tests/kernels/sample_hairs.h"
 
@@ -30,10 +31,8 @@ TEST_F(CInterface, GivesTheSameBits) {
     c.settings->settings = hair.settings;
     const CGroom groom(hair.groom);
     ringlet_asset_options options = RINGLET_INIT(ringlet_asset_options);
-    options.moving_roots = hair.kernel.movingRoots;
-    options.has_forces = hair.kernel.forces;
-    options.has_goals = hair.kernel.goals;
-    options.has_fields = hair.kernel.fields;
+    for (std::size_t k = 0; k < kFeatureNames.size(); ++k)
+      if (hair.kernel.features.*kFeatureNames[k].member) options.features |= std::uint32_t{1} << k;
     const Material material;
     ASSERT_EQ(ringlet_asset_build(c.device, &groom.groom, c.settings, c.material, &options, &c.asset),
               RINGLET_OK)
@@ -65,11 +64,8 @@ TEST_F(CInterface, GivesTheSameBits) {
         ASSERT_TRUE(expected[1].setMaterial(stiff));
         std::vector<Vec3f> forces(hair.groom.points.size(), Vec3f{3, 0, -2});
         forces.back() = {0, 50, 0};
-        EXPECT_EQ(ringlet_hair_set_forces(c.hairs[0], &forces[0].x, forces.size()) == RINGLET_OK,
-                  hair.kernel.forces);
-        if (hair.kernel.forces) {
-          ASSERT_TRUE(expected[0].setForces(forces));
-        }
+        ASSERT_EQ(ringlet_hair_set_forces(c.hairs[0], &forces[0].x, forces.size()), RINGLET_OK);
+        ASSERT_TRUE(expected[0].setForces(forces));
       }
       std::vector<std::vector<ringlet_pose>> poses(2);
       std::vector<ringlet_frame> frames;
@@ -101,7 +97,7 @@ TEST_F(CInterface, GivesTheSameBits) {
     ringlet_report report = RINGLET_INIT(ringlet_report);
     ASSERT_EQ(ringlet_get_report(c.hairs[0], &report), RINGLET_OK);
     EXPECT_EQ(report.max_edge_stretch, expected[0].report()->maxEdgeStretch);
-    EXPECT_EQ(report.device_bytes, expected[0].memory().total());
+    EXPECT_EQ(report.device_bytes, Diagnostics(expected[0]).memory().total());
     ringlet_device_positions buffer = RINGLET_INIT(ringlet_device_positions);
     ASSERT_EQ(ringlet_device_positions_count(c.hairs[0]), 1u);
     ASSERT_EQ(ringlet_get_device_positions(c.hairs[0], 0, &buffer), RINGLET_OK);
@@ -211,17 +207,14 @@ TEST_F(CInterface, AnswersWhateverIsHandedOver) {
   body.shape = RINGLET_MESH;
   initial = RINGLET_INIT(ringlet_initial_state);
   initial.bodies = &body, initial.body_count = 1;
-  EXPECT_EQ(ringlet_hair_create(c.asset, &initial, &lost), RINGLET_ERROR);  // built without bodies
-  EXPECT_NE(std::string(ringlet_error_message()).find("set has_bodies"), std::string::npos);
+  EXPECT_EQ(ringlet_hair_create(c.asset, &initial, &lost), RINGLET_ERROR);  // a mesh without triangles
 
   std::vector<ringlet_pose> poses(8);
   ringlet_frame frame = RINGLET_INIT(ringlet_frame);
   expectInvalid(ringlet_step(&frame, 1), "no hair");
   frame.hair = c.hairs[0], frame.step_poses = poses.data(), frame.step_count = 7;
   expectInvalid(ringlet_step(&frame, 1), "7 poses of the head; its settings have 8");
-  frame.step_count = 8, frame.root_poses = poses.data();
-  expectInvalid(ringlet_step(&frame, 1), "moving_roots");
-  frame.root_poses = nullptr;
+  frame.step_count = 8;
   poses[3].rotation[0] = std::numeric_limits<double>::infinity();
   expectInvalid(ringlet_step(&frame, 1), "not finite");
   poses[3].rotation[0] = 0;
@@ -231,19 +224,13 @@ TEST_F(CInterface, AnswersWhateverIsHandedOver) {
   float few[3] = {0, 0, 0};
   expectInvalid(ringlet_hair_set_forces(c.hairs[0], few, 1), "forces for its 16 particles");
   expectInvalid(ringlet_hair_set_forces(c.hairs[0], nullptr, 16), "forces for its 16 particles");
-  std::vector<float> endless(48);
-  const auto expectBuiltWithout = [&](ringlet_result result, const char* option) {
-    EXPECT_EQ(result, RINGLET_ERROR);
-    EXPECT_NE(std::string(ringlet_error_message()).find(option), std::string::npos)
-        << ringlet_error_message();
-  };
-  expectBuiltWithout(ringlet_hair_set_forces(c.hairs[0], endless.data(), 16), "set has_forces");
-  ringlet_goals goals = RINGLET_INIT(ringlet_goals);
-  goals.places = goals.strengths = endless.data(), goals.particle_count = 16;
-  expectBuiltWithout(ringlet_hair_set_goals(c.hairs[0], &goals), "set has_goals");
-  ringlet_field field = RINGLET_INIT(ringlet_field);
-  expectBuiltWithout(ringlet_hair_set_fields(c.hairs[0], &field, nullptr, 1), "set has_fields");
-  expectBuiltWithout(ringlet_hair_set_bodies(c.hairs[0], &body, 1), "set has_bodies");
+  expectInvalid(ringlet_hair_prepare(nullptr, RINGLET_BODIES), "takes hair");
+  expectInvalid(ringlet_hair_prepare(c.hairs[0], 32), "features 0x20; expected bits of ringlet_features");
+  ringlet_asset_options unknown = RINGLET_INIT(ringlet_asset_options);
+  unknown.features = 1u << 31;
+  ringlet_asset* unbuilt = nullptr;
+  expectInvalid(ringlet_asset_build(c.device, &groom.groom, nullptr, nullptr, &unknown, &unbuilt),
+                "0x80000000");
   expectInvalid(ringlet_positions(c.hairs[0], few, 1), "room for 1 particles, and the hair has 16");
   std::size_t size = 3;
   expectInvalid(ringlet_checkpoint(c.hairs[0], few, &size), "room for 3");
@@ -260,11 +247,11 @@ TEST_F(CInterface, GoalsAndFieldsGiveTheSameBits) {
   const Groom groom = randomGroom({12, 9, 12}, 3);
   const CGroom from(groom);
   ringlet_asset_options options = RINGLET_INIT(ringlet_asset_options);
-  options.has_goals = options.has_fields = 1;
+  options.features = RINGLET_GOALS | RINGLET_FIELDS;
   ASSERT_EQ(ringlet_asset_build(c.device, &from.groom, nullptr, nullptr, &options, &c.asset), RINGLET_OK);
   ASSERT_EQ(ringlet_hair_create(c.asset, nullptr, &c.hairs.emplace_back()), RINGLET_OK);
-  const auto asset =
-      HairAsset::build(device(), groom, Material{}, Settings{}, {.goals = true, .fields = true});
+  const auto asset = HairAsset::build(device(), groom, Material{}, Settings{},
+                                      {.features = {.goals = true, .fields = true}});
   Simulation expected = *Simulation::create(*asset, {});
 
   const VelocityGrid grid{{2, 3, 2}, 0.4, std::vector<Vec3f>(12, Vec3f{1, 0.5f, 0})};

@@ -32,8 +32,7 @@ struct Built : Handles {
   CGroom from{groom};
   void build(std::uint32_t hairCount = 1) {
     ringlet_asset_options options = RINGLET_INIT(ringlet_asset_options);
-    options.has_bodies = options.moving_roots = options.has_forces = options.has_goals = options.has_fields =
-        1;
+    options.features = RINGLET_BODIES | RINGLET_ROOTS | RINGLET_FORCES | RINGLET_GOALS | RINGLET_FIELDS;
     ASSERT_EQ(ringlet_asset_build(device, &from.groom, settings, material, &options, &asset), RINGLET_OK)
         << ringlet_error_message();
     for (std::uint32_t k = 0; k < hairCount; ++k)
@@ -92,6 +91,8 @@ std::vector<Call> callsOf(const Built& c, const std::vector<std::byte>& checkpoi
        [&c](ringlet_hair* hair) { return ringlet_hair_set_settings(hair, c.settings); }},
       {"ringlet_hair_set_material", Needs::framesOver,
        [&c](ringlet_hair* hair) { return ringlet_hair_set_material(hair, c.material); }},
+      {"ringlet_hair_prepare", Needs::framesOver,
+       [](ringlet_hair* hair) { return ringlet_hair_prepare(hair, RINGLET_FIELDS); }},
       {"ringlet_hair_set_bodies", Needs::framesOver,
        [](ringlet_hair* hair) { return ringlet_hair_set_bodies(hair, nullptr, 0); }},
       {"ringlet_hair_set_forces", Needs::process,

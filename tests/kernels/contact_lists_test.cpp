@@ -9,6 +9,7 @@
 #include <set>
 
 #include "parity/contacts.h"
+#include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/simulation.h"
 #include "tests/support/gpu_test.h"
 
@@ -25,7 +26,7 @@ class ContactLists : public GpuTest {
  protected:
   static Pairs listed(const Simulation& simulation) {
     Pairs pairs;
-    const auto contacts = simulation.listedContacts();
+    const auto contacts = Diagnostics(simulation).listedContacts();
     EXPECT_TRUE(contacts);
     for (const ListedContact& c : *contacts) EXPECT_TRUE(pairs.insert({c.a, c.b}).second);
     return pairs;
@@ -113,7 +114,7 @@ TEST_F(ContactLists, KeptListsHoldAllThatMayTouch) {
     state.velocities[2 * s + 1] = Vec3f(Vec3d{(s % 2 ? 0.24 : -0.24) * kSkin / T, 0, 0});
   }
   auto simulation = Simulation::create(device(), groom, {}, settings, {.roots = roots, .rootsEarlier = roots},
-                                       {.movingRoots = true});
+                                       {.features = {.roots = true}});
   ASSERT_TRUE(simulation) << simulation.error().message;
   ASSERT_TRUE(simulation->setState(state));
 

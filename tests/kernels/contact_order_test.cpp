@@ -75,13 +75,16 @@ class ContactOrder : public GpuTest {
                              {layout::kBindContactTexels, *rest},
                              {layout::kBindGrid, *words},
                              {layout::kBindPlaces, *places}};
+    layout::ContactNumbers numbers{};
+    numbers.contactCount = kContacts, numbers.bucketCount = kBuckets;
+    auto ofNumbers = createFilled(gpu(), std::vector{numbers}, "numbers");
+    EXPECT_TRUE(ofNumbers);
+    buffers.emplace(layout::kBindContactNumbers, *ofNumbers);
     for (const auto& [number, kind] : (*kernel)->bindings()) buffers.emplace(number, *unused);
     auto bindings = gpu::Bindings::create(**kernel, buffers);
     auto recorder = gpu::Recorder::create(gpu(), "order");
     EXPECT_TRUE(bindings && recorder && recorder->begin());
-    layout::ContactParameters parameters{};
-    parameters.contactCount = kContacts, parameters.bucketCount = kBuckets;
-    recorder->dispatch(**kernel, *bindings, parameters, (kContacts + 63) / 64);
+    recorder->dispatch(**kernel, *bindings, layout::ContactParameters{}, (kContacts + 63) / 64);
     EXPECT_TRUE(recorder->submitAndWait());
     return *downloadAll<layout::ContactPlace>(*places, kContacts);
   }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ringlet/gpu/recorder.h"
+#include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/plan/frame_plan.h"
 #include "ringlet/solver/simulation.h"
 #include "tests/support/gpu_test.h"
@@ -117,8 +118,8 @@ TEST_F(ContactRecording, TheVolumeHasABarrierBeforeEveryDispatch) {
         ASSERT_TRUE(simulation) << simulation.error().message;
         EXPECT_EQ(simulation->contactReport()->volumeStrands, method == ContactMethod::volume ? 63u : 60u);
         const std::string label =
-            fmt::format("{}, {}, {}", simulation->kernelDescription(), iterations, nameOf(method));
-        const Commands frame = simulation->recordedFrame();
+            fmt::format("{}, {}, {}", Diagnostics(*simulation).kernels(), iterations, nameOf(method));
+        const Commands frame = Diagnostics(*simulation).recordedFrame();
         expectBarriers(frame, label);
         EXPECT_EQ(std::ranges::count(frame, "volume_begin"), 3) << label;
         EXPECT_EQ(std::ranges::count(frame, "volume_place"), 2) << label;  // the first and the third step's
@@ -148,8 +149,8 @@ TEST_F(ContactRecording, HasABarrierBeforeEveryDispatch) {
       auto simulation = Simulation::create(device(), groom, {}, settings, {}, {form});
       ASSERT_TRUE(simulation) << simulation.error().message;
       const std::string label =
-          fmt::format("{}, {}, {}", simulation->kernelDescription(), iterations, nameOf(taper));
-      const Commands whole = simulation->recordedFrame();
+          fmt::format("{}, {}, {}", Diagnostics(*simulation).kernels(), iterations, nameOf(taper));
+      const Commands whole = Diagnostics(*simulation).recordedFrame();
       expectBarriers(whole, label);
       expectSteps(whole, kSteps, settings.contacts, label);
 
@@ -157,7 +158,7 @@ TEST_F(ContactRecording, HasABarrierBeforeEveryDispatch) {
       for (std::size_t i = 0; i < groom.points.size(); ++i) state.positions[i] = state.positions[i] * 0.1f;
       ASSERT_TRUE(simulation->setState(state));
       ASSERT_TRUE(simulation->stepFrame(HeadPose{}));
-      const Commands again = simulation->recordedFrame();
+      const Commands again = Diagnostics(*simulation).recordedFrame();
       EXPECT_NE(again, whole) << label << ": lists had room from the start";
       expectBarriers(again, label + ", with more room");
       const auto steps = std::ranges::count(again, "contact_motion");

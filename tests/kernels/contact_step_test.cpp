@@ -13,6 +13,7 @@
 
 #include "parity/contacts.h"
 #include "reference/step.h"
+#include "ringlet/solver/diagnostics.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/parity.h"
 #include "tests/support/test_support.h"
@@ -47,7 +48,7 @@ class ContactStep : public GpuTest {
               ? std::pair<double, double>(live.life.stiffnessShare, live.life.dampingShare)
               : std::pair<double, double>(live.weights.spring > 0 ? 1 : 0, 1);
     }
-    const auto listed = simulation.listedContacts();
+    const auto listed = Diagnostics(simulation).listedContacts();
     ASSERT_TRUE(listed) << listed.error().message;
     std::size_t found = 0;
     for (const ListedContact& c : *listed) {
@@ -198,7 +199,7 @@ TEST_F(ContactStep, FramesOfMovingRootsAgreeWithDouble) {
   Settings settings = meetingSettings();
   settings.contacts.taper = ContactTaper::time;
   settings.contacts.stiffnessReleaseSeconds = settings.contacts.dampingReleaseSeconds = 10;
-  auto simulation = Simulation::create(device(), groom, {}, settings, {}, {.movingRoots = true});
+  auto simulation = Simulation::create(device(), groom, {}, settings, {}, {.features = {.roots = true}});
   ASSERT_TRUE(simulation) << simulation.error().message;
   reference::Simulation<double> reference(groom, {}, settings);
   const int frames = 12;
@@ -235,7 +236,7 @@ TEST_F(ContactStep, RepeatsBitwiseWithAnyNumberOfThreads) {
     for (int frame = 1; frame <= 6; ++frame) {
       EXPECT_TRUE(simulation->stepFrame(HeadPose{{0, 0, 0.032 * std::sin(0.5 * frame)}, {}}));
     }
-    return std::pair(*simulation->state(), *simulation->listedContacts());
+    return std::pair(*simulation->state(), *Diagnostics(*simulation).listedContacts());
   };
   const auto first = run(device()), again = run(device());
   const auto same = [](const auto& x, const auto& y) {
@@ -283,11 +284,11 @@ TEST_F(ContactStep, RoomDecidesNothing) {
       settings.contacts.taper = taper;
       auto simulation = Simulation::create(device(), groom, {}, settings, {}, {.contactRoom = room});
       EXPECT_TRUE(simulation) << simulation.error().message;
-      const std::uint64_t before = simulation->memory().contactLists;
+      const std::uint64_t before = Diagnostics(*simulation).memory().contactLists;
       for (int frame = 1; frame <= 8; ++frame)
         EXPECT_TRUE(simulation->stepFrame(HeadPose{{0.05 * std::sin(0.7 * frame), 0, 0}, {}}));
       return Outcome{*simulation->positions(), *simulation->contactReport(), before,
-                     simulation->memory().contactLists};
+                     Diagnostics(*simulation).memory().contactLists};
     };
     const Outcome one = run(1);
     EXPECT_GT(one.bytesAfter, one.bytesBefore) << nameOf(taper) << ": all had room, and nothing is tested";

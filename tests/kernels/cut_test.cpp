@@ -280,7 +280,7 @@ TEST_F(CutParity, WhatActsOnHairActsOnWhatFalls) {
   settings.air.wind = {2, 0, 1};
   settings.air.turbulence = 1;
   KernelChoice kernel{.particlesPerLane = 8, .lanes = 4};
-  kernel.forces = kernel.goals = kernel.fields = kernel.movingRoots = true;
+  kernel.features.forces = kernel.features.goals = kernel.features.fields = kernel.features.roots = true;
   ParityCase c = cutCase(randomGroom({2, 3, 31, 30, 16, 17, 5, 32, 9, 24, 29, 13}, 43), kernel, settings);
   expectOneStep(c, "air, forces, goals, fields, roots");
   expectOneFrame(c, "air, forces, goals, fields, roots");

@@ -3,7 +3,10 @@
 
 #include <bit>
 
+#include "layout/contacts.h"
+#include "layout/strands.h"
 #include "parity/contacts.h"
+#include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/simulation.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/parity.h"
@@ -24,7 +27,7 @@ class Memory : public GpuTest {
 
   DeviceMemory of(const Settings& settings, const KernelChoice& kernel, bool bodies = false) {
     const auto simulation = make(settings, kernel, bodies);
-    return simulation ? simulation->memory() : DeviceMemory{};
+    return simulation ? Diagnostics(*simulation).memory() : DeviceMemory{};
   }
   Result<Simulation> make(const Settings& settings, const KernelChoice& kernel = {}, bool bodies = false) {
     auto simulation = Simulation::create(device(), groom_, {}, settings,
@@ -42,8 +45,8 @@ TEST_F(Memory, OfAParticleAndAStrand) {
   EXPECT_EQ(plain.particles, ofParticle() * particleCount_);
   EXPECT_EQ(plain.strands, 136 * strandCount_);
   EXPECT_EQ(plain.rootPoses + plain.contacts + plain.contactLists, 0u);
-  EXPECT_EQ(plain.world, 341u * 48);
-  EXPECT_EQ(plain.frames, 2 * (readBack() * particleCount_ + 341 * 48));
+  EXPECT_EQ(plain.world, 341u * 48 + sizeof(layout::HairNumbers));
+  EXPECT_EQ(plain.frames, 2 * (readBack() * particleCount_ + 341 * 48 + sizeof(layout::HairNumbers)));
   EXPECT_EQ(plain.total(), plain.particles + plain.strands + plain.world + plain.frames);
   for (const KernelChoice& kernel : {KernelChoice{}, serial}) {
     EXPECT_EQ(of({}, kernel).particles, ofParticle() * particleCount_);
@@ -51,10 +54,10 @@ TEST_F(Memory, OfAParticleAndAStrand) {
         << "bodies cost particles nothing";
     EXPECT_EQ(of(airy, kernel).particles, ofParticle() * particleCount_);
   }
-  const DeviceMemory moving = of({}, {.movingRoots = true});
+  const DeviceMemory moving = of({}, {.features = {.roots = true}});
   EXPECT_EQ(moving.rootPoses, 64 * (8 + 1) * strandCount_);
   EXPECT_EQ(moving.frames, plain.frames + 2 * moving.rootPoses);
-  const DeviceMemory pulled = of({}, {.forces = true});
+  const DeviceMemory pulled = of({}, {.features = {.forces = true}});
   EXPECT_EQ(pulled.particles, plain.particles + 16 * particleCount_);
   EXPECT_EQ(pulled.frames, plain.frames + 2 * 16 * particleCount_);
   EXPECT_EQ(of({}, {.taps = true}).particles, (ofParticle() + 128) * particleCount_);
@@ -66,7 +69,7 @@ TEST_F(Memory, OfContacts) {
   settings.contacts.method = ContactMethod::explicitPairs;
   auto simulation = make(settings);
   ASSERT_TRUE(simulation);
-  const DeviceMemory memory = simulation->memory();
+  const DeviceMemory memory = Diagnostics(*simulation).memory();
   EXPECT_EQ(memory.particles, (ofParticle() + 64) * particleCount_);
   const std::uint64_t contacts = simulation->contactReport()->contactParticles;
   ASSERT_GT(contacts, 0u);
@@ -83,7 +86,8 @@ TEST_F(Memory, OfContacts) {
   settings.contacts.taper = ContactTaper::time;
   auto timed = make(settings);
   ASSERT_TRUE(timed);
-  EXPECT_EQ(timed->memory().contactLists, contacts * (16 * 16 + 44 + 40) + (contacts / 4 + 1) * 4 * 64);
+  EXPECT_EQ(Diagnostics(*timed).memory().contactLists,
+            contacts * (16 * 16 + 44 + 40) + (contacts / 4 + 1) * 4 * 64);
 }
 
 // A particle of the volume: 140; a cell 24.
@@ -93,7 +97,7 @@ TEST_F(Memory, OfAVolume) {
   settings.contacts.method = ContactMethod::volume;
   auto simulation = make(settings);
   ASSERT_TRUE(simulation);
-  const DeviceMemory memory = simulation->memory();
+  const DeviceMemory memory = Diagnostics(*simulation).memory();
   EXPECT_EQ(memory.particles, (ofParticle() + 32) * particleCount_);
   EXPECT_EQ(memory.contacts + memory.contactLists, 0u);
   EXPECT_GT(memory.volume, 24u << 10);  // a block of cells at the least
@@ -112,8 +116,9 @@ TEST_F(Memory, OfContactsBesideAVolume) {
   const std::uint64_t buckets = std::bit_ceil(std::max<std::uint64_t>(2 * contacts, 1024));
   const std::uint64_t expected =
       140 * contacts + 16 * buckets + 20 * groom.points.size() + 16 * groom.strandCount();
-  EXPECT_GE(simulation->memory().contacts, expected);
-  EXPECT_LE(simulation->memory().contacts, expected + buckets / 256 + 64);
+  EXPECT_GE(Diagnostics(*simulation).memory().contacts, expected);
+  EXPECT_LE(Diagnostics(*simulation).memory().contacts,
+            expected + buckets / 256 + 64 + sizeof(layout::ContactNumbers));
 }
 
 // Lists as long as hair that lies in itself makes them: 16 bytes a pair and side, and a part that is empty.
@@ -132,11 +137,11 @@ TEST_F(Memory, OfListedContacts) {
   settings.contacts.radius = 0.001;
   auto simulation = Simulation::create(device(), groom, {}, settings);
   ASSERT_TRUE(simulation) << simulation.error().message;
-  const std::uint64_t before = simulation->memory().contactLists;
+  const std::uint64_t before = Diagnostics(*simulation).memory().contactLists;
   ASSERT_TRUE(simulation->stepFrame(HeadPose{}));
   const auto report = simulation->contactReport();
   ASSERT_TRUE(report);
-  const std::uint64_t after = simulation->memory().contactLists;
+  const std::uint64_t after = Diagnostics(*simulation).memory().contactLists;
   EXPECT_GT(after, before) << "lists had to grow";
   const std::uint64_t filled = 2 * 16 * report->listed;
   EXPECT_GE(after, filled);

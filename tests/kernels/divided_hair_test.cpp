@@ -14,6 +14,7 @@
 #include "ringlet/groom/generate.h"
 #include "ringlet/rest/rest_part.h"
 #include "ringlet/solver/contacts/sampled_contacts.h"
+#include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/shared_link.h"
 #include "tests/kernels/sample_hairs.h"
 #include "tests/support/gpu_test.h"
@@ -402,7 +403,7 @@ TEST_F(DividedHair, KnowsItsHaloOnly) {
     EXPECT_TRUE(asset) << asset.error().message;
     auto simulation = make(*asset, hair, kHeads[0]);
     EXPECT_TRUE(simulation) << simulation.error().message;
-    return simulation->memory();
+    return Diagnostics(*simulation).memory();
   };
   const Parts whole{{}};
   const Parts thirds = partsBy(row, 3, [](std::uint32_t s) { return s / 10; });

@@ -17,7 +17,7 @@ using Fields = GpuTest;
 using parity::sampleFields;
 
 Simulation simulationOf(const ComputeDevice& device, Hair hair, bool withFields) {
-  hair.kernel.fields = withFields;
+  hair.kernel.features.fields = withFields;
   return *Simulation::create(*build(device, hair), {.bodies = hair.bodies});
 }
 
@@ -32,8 +32,8 @@ TEST_F(Fields, AgreeInEveryForm) {
                               {.particlesPerLane = 16, .lanes = 4},
                               {KernelChoice::Form::memory, 33, 4},
                               {.form = KernelChoice::Form::serial}}) {
-    kernel.fields = true;
-    kernel.goals = kernel.lanes != 1;  // with and without
+    kernel.features.fields = true;
+    kernel.features.goals = kernel.lanes != 1;  // with and without
     const ParityCase c{randomGroom({2, 3, 31, 64, 100, 16, 17, 65}, 7), {}, {}, kernel};
     SCOPED_TRACE(fmt::format("lanes {}", kernel.lanes));
     for (const FieldError& e : oneStepErrors(device(), c))
@@ -46,7 +46,7 @@ TEST_F(Fields, AgreeInEveryForm) {
 // Among bodies, in air, with forces, with roots that move; records from storage.
 TEST_F(Fields, AgreeAmongAllElse) {
   for (Hair hair : hairs()) {
-    hair.kernel.fields = true;
+    hair.kernel.features.fields = true;
     const ParityCase c{hair.groom, varyingMaterial(), hair.settings, hair.kernel, 3, hair.bodies};
     if (hair.settings.contacts.on || hair.kernel.mostBufferBytes > 0) continue;  // taps need one chunk
     SCOPED_TRACE(hair.name);
@@ -61,7 +61,8 @@ TEST_F(Fields, AgreeWithContacts) {
     settings.contacts.method = method;
     const Groom groom = parity::denseSwatch(32);
     const auto unheeded = [](const Simulation&, const auto&) {};
-    const auto error = parity::shakenError(device(), groom, settings, {.fields = true}, 2, unheeded);
+    const auto error =
+        parity::shakenError(device(), groom, settings, {.features = {.fields = true}}, 2, unheeded);
     ASSERT_TRUE(error) << error.error().message;
     EXPECT_LT(*error, parity::kMeetingMetres) << int(method);
   }
@@ -176,10 +177,6 @@ TEST_F(Fields, WakeHair) {
 TEST_F(Fields, AreRefused) {
   const Hair hair = hairs()[0];
   const std::vector<ForceField> all = sampleFields({}, 0);
-  const Status without = simulationOf(device(), hair, false).setFields(all);
-  ASSERT_FALSE(without);
-  EXPECT_NE(without.error().message.find("KernelChoice::fields"), std::string::npos);
-
   Simulation simulation = simulationOf(device(), hair, true);
   const ForceField wrong{.name = "storm", .drag = -1};
   const Status outside = simulation.setFields(std::span(&wrong, 1));
@@ -190,7 +187,7 @@ TEST_F(Fields, AreRefused) {
 
   Hair baseline = hair;
   baseline.settings.integrator = Integrator::paper;
-  baseline.kernel.fields = true;
+  baseline.kernel.features.fields = true;
   EXPECT_FALSE(build(device(), baseline));
 }
 

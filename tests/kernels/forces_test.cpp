@@ -18,8 +18,8 @@ using Forces = GpuTest;
 // Every kind of hair, built with forces from outside.
 std::vector<Hair> pulledHairs() {
   std::vector<Hair> pulled = hairs();
-  std::erase_if(pulled, [](const Hair& hair) { return hair.kernel.forces; });
-  for (Hair& hair : pulled) hair.kernel.forces = true;
+  std::erase_if(pulled, [](const Hair& hair) { return hair.kernel.features.forces; });
+  for (Hair& hair : pulled) hair.kernel.features.forces = true;
   return pulled;
 }
 
@@ -28,7 +28,7 @@ std::vector<Vec3f> sameForce(const Hair& hair, Vec3f force) {
 }
 
 Simulation simulationOf(const ComputeDevice& device, Hair hair, bool withForces) {
-  hair.kernel.forces = withForces;
+  hair.kernel.features.forces = withForces;
   return *Simulation::create(*build(device, hair), {.bodies = hair.bodies});
 }
 
@@ -51,7 +51,7 @@ TEST_F(Forces, AgreeInEveryFormAndIntegrator) {
       // Few lanes solve in a way of their own, in jacobi only.
       const bool isFew = kernel.lanes == 1 || kernel.lanes == 2;
       if (integrator != Integrator::jacobi && isFew) continue;
-      kernel.forces = true;
+      kernel.features.forces = true;
       ParityCase c{randomGroom({2, 3, 31, 64, 100, 16, 17, 65}, 7), {}, {}, kernel};
       if (!makes(kernel, c.groom)) continue;
       c.settings.integrator = integrator;
@@ -173,14 +173,6 @@ TEST_F(Forces, AreTheFramesTheyWereSetFor) {
     found.push_back(flies.framePositions());
     EXPECT_TRUE(found == expected);
   }
-}
-
-TEST_F(Forces, AreRefusedOfHairBuiltWithout) {
-  const Hair hair = hairs()[0];
-  Simulation without = simulationOf(device(), hair, false);
-  const Status refused = without.setForces(sameForce(hair, {1, 0, 0}));
-  ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().message.find("KernelChoice::forces"), std::string::npos);
 }
 
 }  // namespace

@@ -19,12 +19,12 @@ using Goals = GpuTest;
 // Every kind of hair, built with goals.
 std::vector<Hair> aimedHairs() {
   std::vector<Hair> aimed = hairs();
-  for (Hair& hair : aimed) hair.kernel.goals = true;
+  for (Hair& hair : aimed) hair.kernel.features.goals = true;
   return aimed;
 }
 
 Simulation simulationOf(const ComputeDevice& device, Hair hair, bool withGoals) {
-  hair.kernel.goals = withGoals;
+  hair.kernel.features.goals = withGoals;
   return *Simulation::create(*build(device, hair), {.bodies = hair.bodies});
 }
 
@@ -54,7 +54,7 @@ TEST_F(Goals, AgreeInEveryForm) {
                               {.particlesPerLane = 16, .lanes = 4},
                               {KernelChoice::Form::memory, 33, 4},
                               {.form = KernelChoice::Form::serial}}) {
-    kernel.goals = true;
+    kernel.features.goals = true;
     for (const bool shape : {false, true}) {
       ParityCase c{randomGroom({2, 3, 31, 64, 100, 16, 17, 65}, 7), {}, {}, kernel};
       if (!makes(kernel, c.groom)) continue;
@@ -133,7 +133,8 @@ TEST_F(Goals, AgreeWithContacts) {
     const auto unheeded = [](const Simulation&, const auto&) {};
     for (const bool shape : {false, true}) {
       settings.goal.shape = shape;
-      const auto error = parity::shakenError(device(), groom, settings, {.goals = true}, 4, unheeded);
+      const auto error =
+          parity::shakenError(device(), groom, settings, {.features = {.goals = true}}, 4, unheeded);
       ASSERT_TRUE(error) << error.error().message;
       EXPECT_LT(*error, parity::kMeetingMetres) << int(method) << shape;
     }
@@ -190,7 +191,7 @@ TEST_F(Goals, OfNoStrengthChangeNothing) {
 // Hair at rest is at its goal: it stays.
 TEST_F(Goals, TheGroomItselfLeavesHairAtRest) {
   for (const Hair& hair : aimedHairs()) {
-    if (!hair.bodies.empty() || hair.kernel.forces) continue;  // those move it
+    if (!hair.bodies.empty() || hair.kernel.features.forces) continue;  // those move it
     for (const bool shape : {false, true}) {
       SCOPED_TRACE(fmt::format("{}, {}", hair.name, shape ? "shapes" : "places"));
       Hair with = hair;
@@ -281,14 +282,6 @@ TEST_F(Goals, StrongShapesAreFollowed) {
     for (int frame = 1; frame <= 48; ++frame) ASSERT_TRUE(held.stepFrame(HeadPose{}));
     EXPECT_LT(farthest(*held.positions(), places), 0.01 * 0.25);
   }
-}
-
-TEST_F(Goals, AreRefusedOfHairBuiltWithout) {
-  const Hair hair = hairs()[0];
-  Simulation without = simulationOf(device(), hair, false);
-  const Status refused = without.setGoals(restOf(hair), allOf(hair, 1));
-  ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().message.find("KernelChoice::goals"), std::string::npos);
 }
 
 TEST_F(Goals, NeedTheIntegratorJacobi) {

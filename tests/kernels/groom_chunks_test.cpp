@@ -10,6 +10,7 @@
 #include "layout/strands.h"
 #include "ringlet/gpu/buffer.h"
 #include "ringlet/solver/compute_device.h"
+#include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/simulation.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/parity.h"
@@ -25,7 +26,8 @@ TEST(GroomChunks, HoldEveryStrandOnceAndNoMoreThanTheyMay) {
   for (std::uint32_t n : {2u, 3u, 16u, 17u, 300u}) counts.insert(counts.end(), 7, n);
   for (const bool taps : {false, true}) {
     for (const bool movingRoots : {false, true}) {
-      const GroomRecords records = groomRecords({}, {.movingRoots = movingRoots, .taps = taps}, {}, true);
+      const GroomRecords records =
+          groomRecords({}, {.features = {.roots = movingRoots}, .taps = taps}, {}, true);
       for (std::uint64_t most : {300u * 240u, 100'000u, 1u << 20}) {
         const auto chunks = cutGroom(counts, records, most);
         ASSERT_TRUE(chunks) << chunks.error().message;
@@ -128,7 +130,7 @@ class ChunkedGroom : public GpuTest {
         heads.push_back(headAt(t));
         heads.back().shift = t;
         if (frame == 2) heads.back().position = heads.back().position + Vec3d{100, 0, 0};
-        for (std::size_t s = 0; c.kernel.movingRoots && s < groom.strandCount(); ++s) {
+        for (std::size_t s = 0; c.kernel.features.roots && s < groom.strandCount(); ++s) {
           const double way = t * (1 + 0.1 * double(s));
           roots.push_back({Vec3d{0.1 * way, 0.2 * way, 0}, fromRotationVector(Vec3d{way, 0, -way})});
         }
@@ -167,8 +169,8 @@ class ChunkedGroom : public GpuTest {
     EXPECT_EQ(reports_[0].limitedShare, reports_[1].limitedShare);
     EXPECT_EQ(reports_[0].nonfinite, 0u);
     ASSERT_TRUE(cut && uncut);
-    EXPECT_EQ(cut->kernelDescription(), uncut->kernelDescription());
-    EXPECT_EQ(cut->memory().total(), uncut->memory().total());
+    EXPECT_EQ(Diagnostics(*cut).kernels(), Diagnostics(*uncut).kernels());
+    EXPECT_EQ(Diagnostics(*cut).memory().total(), Diagnostics(*uncut).memory().total());
   }
 
   std::vector<SimulationReport> reports_;
@@ -184,8 +186,8 @@ TEST_F(ChunkedGroom, HasTheBitsOfTheWhole) {
 }
 
 TEST_F(ChunkedGroom, HasThemWithRootsThatMove) {
-  expectSameBits({"lanes", {.movingRoots = true}, {}});
-  expectSameBits({"serial", {.form = KernelChoice::Form::serial, .movingRoots = true}, {}});
+  expectSameBits({"lanes", {.features = {.roots = true}}, {}});
+  expectSameBits({"serial", {.form = KernelChoice::Form::serial, .features = {.roots = true}}, {}});
 }
 
 TEST_F(ChunkedGroom, HasThemAmongBodiesInAir) {

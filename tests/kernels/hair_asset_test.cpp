@@ -5,6 +5,7 @@
 #include <thread>
 #include <vector>
 
+#include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/simulation.h"
 #include "tests/kernels/sample_hairs.h"
 #include "tests/support/gpu_test.h"
@@ -90,17 +91,10 @@ TEST_F(HairAssetTest, SaysWhatIsShared) {
         places + (hair.settings.integrator == Integrator::paper ? 32 : 64);  // profiles
     const std::uint64_t particles = ofParticle * hair.groom.points.size(),
                         strands = 112 * hair.groom.strandCount();
-    EXPECT_EQ(make(*asset, hair, kHeads[0])->memory().shared, particles + strands);
-    EXPECT_EQ(make(*asset, hair, kHeads[1])->memory().shared, particles) << "its strands are shifted";
+    EXPECT_EQ(Diagnostics(*make(*asset, hair, kHeads[0])).memory().shared, particles + strands);
+    EXPECT_EQ(Diagnostics(*make(*asset, hair, kHeads[1])).memory().shared, particles)
+        << "its strands are shifted";
   }
-}
-
-TEST_F(HairAssetTest, IsBuiltWithBodiesOrWithout) {
-  const Hair with{"with", randomGroom({8, 8}, 1), {}, {}, sampleBodies()}, without{"without", with.groom};
-  const auto wanting = make(*build(device(), without), with, kHeads[0]);
-  EXPECT_EQ(wanting.error().message,
-            "the hair's asset was built without bodies; build it with BodyUse::some");
-  EXPECT_TRUE(make(*build(device(), with), without, kHeads[0])) << "they may come later";
 }
 
 }  // namespace

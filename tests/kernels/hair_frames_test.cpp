@@ -5,6 +5,7 @@
 
 #include "parity/tolerances.h"
 #include "ringlet/gpu/device.h"
+#include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/hair_frames.h"
 #include "tests/kernels/sample_hairs.h"
 #include "tests/support/gpu_test.h"
@@ -94,9 +95,9 @@ TEST_F(HairFramesTest, ListsThatGrowHoldNobodyUp) {
   ASSERT_TRUE(stepFrames(frames));
   std::size_t grown = 0;
   for (std::size_t k = 0; k < crowd.hairs.size(); ++k) {
-    const auto before = crowd.alone[k].memory().contactLists;
+    const auto before = Diagnostics(crowd.alone[k]).memory().contactLists;
     ASSERT_TRUE(crowd.alone[k].stepFrame(poses[k]));
-    if (crowd.alone[k].memory().contactLists > before) ++grown;
+    if (Diagnostics(crowd.alone[k]).memory().contactLists > before) ++grown;
   }
   EXPECT_GT(grown, 0u) << "all lists had room";
   expectEqual(crowd);
@@ -137,7 +138,7 @@ TEST_F(HairFramesTest, HeadsOfARowStepAsIfAlone) {
     RowOfHeads single(device(), kind);
     kind.kernel.heads = 4;
     RowOfHeads together(device(), kind), alone(device(), kind);
-    SCOPED_TRACE(together.hair[0].kernelDescription());
+    SCOPED_TRACE(Diagnostics(together.hair[0]).kernels());
     for (int frame = 0; frame < 3; ++frame) {
       SCOPED_TRACE(frame);
       std::vector<std::vector<HeadPose>> poses;

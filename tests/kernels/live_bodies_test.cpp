@@ -44,7 +44,7 @@ std::vector<HeadPose> posesOf(int frame, const Settings& settings) {
 TEST_F(LiveBodies, AreAsIfHairHadBeenBornAmongThem) {
   const Groom groom = randomGroom({31, 5, 64, 2, 17}, 3);
   for (const Settings& settings : ways()) {
-    const auto asset = HairAsset::build(device(), groom, {}, settings, {}, BodyUse::some);
+    const auto asset = HairAsset::build(device(), groom, {}, settings, {.features = {.bodies = true}});
     ASSERT_TRUE(asset) << asset.error().message;
     std::vector<std::vector<Vec3f>> ends;
     for (const auto& to : sets()) {
@@ -69,7 +69,7 @@ TEST_F(LiveBodies, AreAsIfHairHadBeenBornAmongThem) {
 TEST_F(LiveBodies, ChangeBetweenFrames) {
   const Groom groom = randomGroom({31, 5, 64, 2, 17}, 3);
   const Settings settings;
-  const auto asset = HairAsset::build(device(), groom, {}, settings, {}, BodyUse::some);
+  const auto asset = HairAsset::build(device(), groom, {}, settings, {.features = {.bodies = true}});
   const std::vector<Body> first = sets()[1], second = sets()[2];
   Simulation hair = *Simulation::create(*asset, {.bodies = first}),
              flies = *Simulation::create(*asset, {.bodies = first});
@@ -97,7 +97,7 @@ TEST_F(LiveBodies, ChangeBetweenFrames) {
 TEST_F(LiveBodies, StandWhereTheyAreSaidToStand) {
   const Groom groom = randomGroom({31, 5, 64, 2, 17}, 3);
   const Settings settings;
-  const auto asset = HairAsset::build(device(), groom, {}, settings, {}, BodyUse::some);
+  const auto asset = HairAsset::build(device(), groom, {}, settings, {.features = {.bodies = true}});
   std::vector<Body> bodies = sets()[1];
   bodies[0].radius = 0.1, bodies[0].place.position = {0, -0.05, 0.1};  // beside the hair, and would sweep it
   const BodyPose there{{0, -0.1, 0}, {}};
@@ -116,7 +116,7 @@ TEST_F(LiveBodies, KeepTheSettings) {
   const Groom groom = randomGroom({31, 5, 64, 2, 17}, 3);
   Settings settings;
   settings.air = {.on = true, .wind = {1, 0, 0}};
-  const auto asset = HairAsset::build(device(), groom, {}, settings, {}, BodyUse::some);
+  const auto asset = HairAsset::build(device(), groom, {}, settings, {.features = {.bodies = true}});
   Simulation first = *Simulation::create(*asset, {.bodies = sets()[2]}),
              second = *Simulation::create(*asset, {.bodies = sets()[2]});
   settings.stepsPerFrame = 4, settings.framesPerSecond = 48, settings.air.wind = {0, 3, 0};
@@ -133,7 +133,7 @@ TEST_F(LiveBodies, KeepTheSettings) {
 
 TEST_F(LiveBodies, WrongOnesAreRefusedAndChangeNothing) {
   const Groom groom = randomGroom({31, 5}, 3);
-  const auto asset = HairAsset::build(device(), groom, {}, {}, {}, BodyUse::some);
+  const auto asset = HairAsset::build(device(), groom, {}, {}, {.features = {.bodies = true}});
   Simulation hair = *Simulation::create(*asset, {.bodies = sets()[1]}),
              untouched = *Simulation::create(*asset, {.bodies = sets()[1]});
   Body wrong;
@@ -144,19 +144,14 @@ TEST_F(LiveBodies, WrongOnesAreRefusedAndChangeNothing) {
     ASSERT_TRUE(untouched.stepFrame(posesOf(frame, {})));
   }
   EXPECT_TRUE(*hair.positions() == *untouched.positions());
-  Simulation bare = *Simulation::create(device(), groom, {}, {});
-  const Status status = bare.setBodies(sets()[1]);
-  ASSERT_FALSE(status);
-  EXPECT_NE(status.error().message.find("built without bodies"), std::string::npos);
-  EXPECT_TRUE(bare.setBodies({}));
 }
 
 // The same through the C interface.
 TEST_F(LiveBodies, ChangeThroughC) {
   const Groom groom = randomGroom({31, 5, 64}, 3);
-  const auto asset = HairAsset::build(device(), groom, {}, {}, {}, BodyUse::some);
+  const auto asset = HairAsset::build(device(), groom, {}, {}, {.features = {.bodies = true}});
   Simulation expected = *Simulation::create(*asset, {.bodies = sets()[1]});
-  ringlet_asset handle{*asset, device(), {.bodies = true}};
+  ringlet_asset handle{*asset, device()};
   ringlet_body sphere = RINGLET_INIT(ringlet_body);
   sphere.radius = 0.03, sphere.friction = Body{}.friction;
   sphere.pose = {{0.01, -0.04, 0}, {0, 0, 0, 1}};

@@ -9,6 +9,7 @@
 
 #include "ringlet/rest/live_material.h"
 #include "ringlet/rest/material_parameters.h"
+#include "ringlet/solver/diagnostics.h"
 #include "tests/kernels/sample_hairs.h"
 #include "tests/support/gpu_test.h"
 
@@ -60,7 +61,7 @@ void step(Simulation& simulation, int from, int frames) {
 }
 
 Result<Simulation> born(const ComputeDevice& device, const Hair& hair, const Material& material) {
-  std::vector<Vec3d> shifts(hair.kernel.movingRoots ? 0 : hair.groom.strandCount(), {0.01, 0, 0});
+  std::vector<Vec3d> shifts(hair.kernel.features.roots ? 0 : hair.groom.strandCount(), {0.01, 0, 0});
   return Simulation::create(device, hair.groom, material, hair.settings,
                             {.head = headAt(0), .bodies = hair.bodies, .rootShifts = shifts}, hair.kernel);
 }
@@ -139,14 +140,14 @@ TEST_F(LiveMaterials, HeadsOfOneAssetHaveMaterialsOfTheirOwn) {
   const auto asset = HairAsset::build(device(), hair.groom, builtMaterial(), hair.settings);
   Simulation first = *make(*asset, hair, kHeads[0]), second = *make(*asset, hair, kHeads[0]),
              alone = *make(*asset, hair, kHeads[0]);
-  const auto shared = first.memory().shared;
+  const auto shared = Diagnostics(first).memory().shared;
   Material stiff = builtMaterial();
   stiff.bendStiffness *= 4;
   ASSERT_TRUE(first.setMaterial(stiff));
   EXPECT_GT(shared, 0u);
   const std::uint64_t places = device().gpu().properties().isCpu ? 0 : 4 * hair.groom.points.size();
-  EXPECT_EQ(first.memory().shared, places);
-  EXPECT_EQ(second.memory().shared, shared);
+  EXPECT_EQ(Diagnostics(first).memory().shared, places);
+  EXPECT_EQ(Diagnostics(second).memory().shared, shared);
   step(first, 0, 3);
   step(second, 0, 3);
   step(alone, 0, 3);

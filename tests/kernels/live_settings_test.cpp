@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ringlet/scene/settings_fields.h"
+#include "ringlet/solver/diagnostics.h"
 #include "tests/kernels/sample_hairs.h"
 #include "tests/support/gpu_test.h"
 
@@ -154,7 +155,7 @@ TEST_F(LiveSettings, ChangeBetweenFrames) {
 // Roots' own poses, where hair has them: they travel and turn evenly too.
 std::vector<BodyPose> rootPosesOf(const Hair& hair, double t, const Settings& settings) {
   std::vector<BodyPose> poses;
-  for (int k = 1; hair.kernel.movingRoots && k <= settings.stepsPerFrame; ++k) {
+  for (int k = 1; hair.kernel.features.roots && k <= settings.stepsPerFrame; ++k) {
     const double at = t + k * settings.stepSeconds();
     const BodyPose root{Vec3d{0, 2 * at, 0}, fromRotationVector(Vec3d{2 * at, 0, 0})};
     poses.insert(poses.end(), hair.groom.strandCount(), root);
@@ -222,12 +223,12 @@ TEST_F(LiveSettings, ToAndBackIsNothing) {
 // Those that are carried rigidly are where they were, and as fast.
 TEST_F(LiveSettings, CarriedStrandsAreAsFastInShorterSteps) {
   Hair hair = hairs()[2];
-  ASSERT_TRUE(hair.kernel.movingRoots);
+  ASSERT_TRUE(hair.kernel.features.roots);
   std::vector<Vec3f> tiny;
   for (int i = 0; i < 20; ++i) tiny.push_back(Vec3f(Vec3d{1, -1e-8 * i, 0}));
   hair.groom.addStrand(tiny);
   Simulation simulation = *born(device(), hair, hair.settings);
-  ASSERT_EQ(simulation.rigidStrandCount(), 1u);
+  ASSERT_EQ(Diagnostics(simulation).rigidStrandCount(), 1u);
   std::vector<HeadPose> poses;
   for (int k = 1; k <= hair.settings.stepsPerFrame; ++k)
     poses.push_back(headAt(k * hair.settings.stepSeconds()));

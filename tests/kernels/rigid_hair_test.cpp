@@ -8,6 +8,7 @@
 #include "layout/strands.h"
 #include "reference/step.h"
 #include "ringlet/scene/motion.h"
+#include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/simulation.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/parity.h"
@@ -98,8 +99,8 @@ TEST_F(RigidHairTest, LeavesTheBitsOfAllOtherHair) {
   chunked.mostBufferBytes = 31 * 32;  // a strand a chunk
   for (const KernelChoice& kernel : {KernelChoice{}, KernelChoice{KernelChoice::Form::serial}, chunked}) {
     Simulation all = make(groom_, kernel), others = make(without_, kernel);
-    EXPECT_EQ(all.rigidStrandCount(), 3u);
-    EXPECT_EQ(others.rigidStrandCount(), 0u);
+    EXPECT_EQ(Diagnostics(all).rigidStrandCount(), 3u);
+    EXPECT_EQ(Diagnostics(others).rigidStrandCount(), 0u);
     for (int frame = 0; frame < kFrames; frame += 2) {
       for (int next : {frame, frame + 1}) {
         ASSERT_TRUE(all.submitFrame(headsOf(next)));
@@ -140,7 +141,7 @@ TEST_F(RigidHairTest, IsWhereTheReferenceHasIt) {
   const std::vector<Vec3d> moved = shifts();
   const std::vector<BodyPose> now = rootsAt(0), earlier = rootsAt(-settings_.stepSeconds());
   Simulation simulation =
-      make(groom_, {.movingRoots = true},
+      make(groom_, {.features = {.roots = true}},
            {.bodies = bodies, .roots = now, .rootsEarlier = earlier, .rootShifts = moved});
   reference::Simulation<double> reference(groom_, {}, settings_, headAt(0, 0),
                                           headAt(-settings_.stepSeconds(), 0), {}, bodies);
@@ -166,7 +167,7 @@ TEST_F(RigidHairTest, IsWhereTheReferenceHasIt) {
   ASSERT_FALSE(reference.contacts().particles.empty());
   for (const reference::ContactParticle& particle : reference.contacts().particles)
     EXPECT_EQ(particle.strand % 2, 0u) << "the reference has rigid strand " << particle.strand << " touch";
-  const std::vector<ListedContact> listed = *simulation.listedContacts();
+  const std::vector<ListedContact> listed = *Diagnostics(simulation).listedContacts();
   for (const ListedContact& contact : listed) {
     for (std::uint32_t particle : {contact.a, contact.b}) {
       const auto after = std::ranges::upper_bound(groom_.firstPoint, particle);
@@ -190,7 +191,7 @@ TEST_F(RigidHairTest, IsMovedByNothingElse) {
     EXPECT_TRUE(after.velocities[i] == expected.velocities[i]) << s;
   }
   ASSERT_TRUE(simulation.stepFrame(headsOf(0)));
-  const auto tap = *simulation.tap(layout::kTapVelocity);
+  const auto tap = *Diagnostics(simulation).tap(layout::kTapVelocity);
   ASSERT_EQ(tap.size(), groom_.points.size());
   EXPECT_EQ(tap[groom_.firstPoint[1] + 1], (std::array<float, 4>{}));
 }
@@ -204,8 +205,8 @@ TEST_F(RigidHairTest, MayBeAllThereIs) {
   settings_.contacts.method = ContactMethod::explicitPairs;
   const std::vector<Body> bodies{{.name = "ball", .radius = 0.05}};
   Simulation simulation = make(fine, {}, {.bodies = bodies});
-  EXPECT_EQ(simulation.rigidStrandCount(), 3u);
-  EXPECT_NE(simulation.kernelDescription().find("rigid"), std::string::npos);
+  EXPECT_EQ(Diagnostics(simulation).rigidStrandCount(), 3u);
+  EXPECT_NE(Diagnostics(simulation).kernels().find("rigid"), std::string::npos);
   for (int frame = 0; frame < kFrames; ++frame) ASSERT_TRUE(simulation.stepFrame(headsOf(frame)));
   const std::vector<Vec3f> found = *simulation.positions();
   const Quatd turn = simulation.head().rotation;
@@ -213,7 +214,7 @@ TEST_F(RigidHairTest, MayBeAllThereIs) {
     EXPECT_LE(length(static_cast<Vec3d>(found[i]) - rotate(turn, static_cast<Vec3d>(fine.points[i]))), 1e-7);
   EXPECT_EQ(simulation.report()->nonfinite, 0u);
   EXPECT_EQ(simulation.contactReport()->contactParticles, 0u);
-  EXPECT_TRUE(simulation.listedContacts()->empty());
+  EXPECT_TRUE(Diagnostics(simulation).listedContacts()->empty());
 }
 
 // Hair as a fine groom has it, a metre away and shaken: the limit holds to a thousandth.
@@ -235,11 +236,12 @@ TEST_F(RigidHairTest, LetsTheStretchLimitHold) {
     for (int k = 1; k <= settings_.stepsPerFrame; ++k) heads.push_back(motion.poseAt(timeOf(frame, k)));
     ASSERT_TRUE(simulation.stepFrame(heads));
   }
-  fmt::print("{} of {} strands rigid; longest edge {:.5f} of a limit of {}\n", simulation.rigidStrandCount(),
-             groom.strandCount(), simulation.report()->maxEdgeStretch, settings_.maxStretch);
+  fmt::print("{} of {} strands rigid; longest edge {:.5f} of a limit of {}\n",
+             Diagnostics(simulation).rigidStrandCount(), groom.strandCount(),
+             simulation.report()->maxEdgeStretch, settings_.maxStretch);
   EXPECT_GT(simulation.report()->limitedShare, 0);
   EXPECT_LE(simulation.report()->maxEdgeStretch, settings_.maxStretch * (1 + 1e-3));
-  EXPECT_GE(simulation.rigidStrandCount(), 2u);
+  EXPECT_GE(Diagnostics(simulation).rigidStrandCount(), 2u);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/simulation.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/parity.h"
@@ -49,7 +50,7 @@ class RootPoses : public GpuTest {
   }
   Simulation make(KernelChoice kernel, bool movingRoots, HeadPose (*head)(double),
                   std::span<const BodyPose> roots = {}, std::span<const BodyPose> earlier = {}) {
-    kernel.movingRoots = movingRoots;
+    kernel.features.roots = movingRoots;
     auto simulation = Simulation::create(device(), groom_, {}, settings_,
                                          {.head = head(0),
                                           .oneStepEarlier = head(-settings_.stepSeconds()),
@@ -104,7 +105,7 @@ TEST_F(RootPoses, ThatAreEqualAreAMovingHead) {
       ASSERT_TRUE(apart.stepFrame(ofFrame(frame, headAt), {}, roots));
       ASSERT_TRUE(moving.stepFrame(ofFrame(frame, together)));
     }
-    fmt::print("equal poses, {}: {:.1e} m from a moving head\n", apart.kernelDescription(), difference());
+    fmt::print("equal poses, {}: {:.1e} m from a moving head\n", Diagnostics(apart).kernels(), difference());
     EXPECT_LE(difference(), kOneFrame * 0.25) << "strands of 25 cm";
   }
 }

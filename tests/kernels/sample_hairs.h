@@ -33,8 +33,8 @@ inline std::vector<Hair> hairs() {
   air.air.on = true;
   return {{"lanes", groom},
           {"serial", groom, {}, {KernelChoice::Form::serial}},
-          {"roots that move", groom, {}, {.movingRoots = true}},
-          {"forces", groom, {}, {.forces = true}},
+          {"roots that move", groom, {}, {.features = {.roots = true}}},
+          {"forces", groom, {}, {.features = {.forces = true}}},
           {"chunks", randomGroom(std::vector<int>(40, 30), 3), {}, {.mostBufferBytes = kSmallBuffer}},
           {"pairs", parity::denseSwatch(16), pairs},
           {"volume", parity::denseSwatch(16), volume},
@@ -57,7 +57,7 @@ inline Result<Simulation> make(const HairAsset& asset, const Hair& hair, const H
                                                .oneStepEarlier = head.at(-hair.settings.stepSeconds()),
                                                .bodies = hair.bodies,
                                                .rootShifts = shifts});
-  if (simulation && hair.kernel.forces) {
+  if (simulation && hair.kernel.features.forces) {
     const std::vector<Vec3f> forces(hair.groom.points.size(), static_cast<Vec3f>(head.way * 20.0));
     if (Status status = simulation->setForces(forces); !status) return status.error();
   }
@@ -65,8 +65,9 @@ inline Result<Simulation> make(const HairAsset& asset, const Hair& hair, const H
 }
 
 inline Result<HairAsset> build(const ComputeDevice& device, const Hair& hair) {
-  return HairAsset::build(device, hair.groom, varyingMaterial(), hair.settings, hair.kernel,
-                          hair.bodies.empty() ? BodyUse::none : BodyUse::some);
+  KernelChoice kernel = hair.kernel;
+  kernel.features.bodies = !hair.bodies.empty();
+  return HairAsset::build(device, hair.groom, varyingMaterial(), hair.settings, kernel);
 }
 
 }  // namespace ringlet::test

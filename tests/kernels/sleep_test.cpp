@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "ringlet/solver/diagnostics.h"
 #include "tests/kernels/sample_hairs.h"
 #include "tests/support/gpu_test.h"
 
@@ -28,7 +29,7 @@ Simulation simulationOf(const ComputeDevice& device, const Hair& hair) {
 }
 
 bool sleeps(const Simulation& simulation) {
-  const std::vector<std::string> frame = simulation.recordedFrame();
+  const std::vector<std::string> frame = Diagnostics(simulation).recordedFrame();
   return std::ranges::none_of(frame, [](const auto& command) { return command.starts_with("strand_step"); });
 }
 
@@ -109,7 +110,7 @@ const std::vector<Waker> kWakers{
      }},
     {"bodies", [](const Hair& hair) { return !hair.bodies.empty(); },
      [](Simulation& s, const Hair&) { return s.setBodies({}); }},
-    {"forces", [](const Hair& hair) { return hair.kernel.forces; },
+    {"forces", [](const Hair& hair) { return hair.kernel.features.forces; },
      [](Simulation& s, const Hair& hair) {
        return s.setForces(std::vector<Vec3f>(hair.groom.points.size(), Vec3f{5, 0, 0}));
      }},
@@ -180,7 +181,7 @@ TEST_F(Sleep, HeadBodiesAndRootsWakeIt) {
         bodies[moved * hair.bodies.size() + 1].position.y += 1e-4;
         EXPECT_TRUE(awake(still, bodies, {})) << moved;
       }
-      if (hair.kernel.movingRoots) {
+      if (hair.kernel.features.roots) {
         std::vector<BodyPose> roots(steps * hair.groom.strandCount());
         EXPECT_FALSE(awake(still, {}, roots));
         roots[moved * hair.groom.strandCount() + 2].position.z = 1e-4;

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/simulation.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/parity.h"
@@ -33,7 +34,7 @@ class StagedContacts : public GpuTest {
   }
 
   static Seen seenAfter(const Simulation& simulation) {
-    return {*simulation.state(), *simulation.contactReport(), *simulation.listedContacts()};
+    return {*simulation.state(), *simulation.contactReport(), *Diagnostics(simulation).listedContacts()};
   }
 
   // Frames whose lists grow; then the first state put back, which makes the device forget contacts, and more
@@ -46,7 +47,7 @@ class StagedContacts : public GpuTest {
     auto simulation = Simulation::create(device, denseGroom(), {}, settings);
     EXPECT_TRUE(simulation) << simulation.error().message;
     if (!simulation) return {};
-    const std::uint64_t listBytes = simulation->memory().contactLists;
+    const std::uint64_t listBytes = Diagnostics(*simulation).memory().contactLists;
     // Nearer each other than at rest, so that contacts push.
     HairState squeezed = *simulation->state();
     for (Vec3f& p : squeezed.positions) p = {0.6f * p.x, p.y, 0.6f * p.z};
@@ -61,7 +62,7 @@ class StagedContacts : public GpuTest {
         EXPECT_TRUE(simulation->setState(squeezed));
       }
     }
-    EXPECT_GT(simulation->memory().contactLists, listBytes) << "lists were to grow";
+    EXPECT_GT(Diagnostics(*simulation).memory().contactLists, listBytes) << "lists were to grow";
     EXPECT_GT(seen.back().report.contacts, 0u);
     return seen;
   }

@@ -5,6 +5,7 @@
 
 #include <numeric>
 
+#include "ringlet/solver/diagnostics.h"
 #include "tests/kernels/kernel_variants.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/parity.h"
@@ -165,11 +166,11 @@ TEST_F(StrandStep, LongStrandsAgreeInEveryIntegrator) {
   }
 }
 
-// With KernelChoice::movingRoots: every strand has poses of its own. Each form with one root, both with
+// With Features::roots: every strand has poses of its own. Each form with one root, both with
 // three.
 TEST_F(StrandStep, RootsOfTheirOwnAgree) {
   for (Variant variant : kVariants) {
-    variant.kernel.movingRoots = true;
+    variant.kernel.features.roots = true;
     const bool isDefault =
         variant.name == kVariants[0].name || variant.kernel.form == KernelChoice::Form::serial;
     for (Integrator integrator : {Integrator::jacobi, Integrator::paper}) {
@@ -220,7 +221,7 @@ TEST_F(StrandStep, OnlyWhatIsSolvedFromItsEndsHasLongRuns) {
   const auto shapeOf = [&](Integrator integrator, const Material& material) {
     auto simulation = Simulation::create(device(), groom, material, settingsFor(integrator));
     EXPECT_TRUE(simulation) << simulation.error().message;
-    return simulation ? simulation->kernelDescription() : "";
+    return simulation ? Diagnostics(*simulation).kernels() : "";
   };
   if (shapeOf(Integrator::jacobi, {}).find("2 x 32") == std::string::npos)
     GTEST_SKIP() << "this device takes shorter runs";

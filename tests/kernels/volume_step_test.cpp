@@ -11,6 +11,7 @@
 #include "parity/contacts.h"
 #include "reference/step.h"
 #include "ringlet/groom/generate.h"
+#include "ringlet/solver/diagnostics.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/parity.h"
 #include "tests/support/test_support.h"
@@ -219,7 +220,7 @@ TEST_F(VolumeStep, RoomOfListsDecidesNothing) {
   const auto run = [&](int room) {
     auto simulation = Simulation::create(device(), groom, {}, besideSettings(), {}, {.contactRoom = room});
     EXPECT_TRUE(simulation) << simulation.error().message;
-    const std::uint64_t before = simulation->memory().contactLists;
+    const std::uint64_t before = Diagnostics(*simulation).memory().contactLists;
     HairState state = *simulation->state();
     for (std::size_t s = 60; s < 64; ++s) {  // into the bunch, so fast that they may meet all of it
       for (std::size_t i = groom.firstPoint[s] + 1; i < groom.firstPoint[s + 1]; ++i) {
@@ -229,7 +230,7 @@ TEST_F(VolumeStep, RoomOfListsDecidesNothing) {
     }
     EXPECT_TRUE(simulation->setState(state));
     shake(*simulation, 0, 4);
-    return std::tuple(hairOf(*simulation), simulation->memory().contactLists > before,
+    return std::tuple(hairOf(*simulation), Diagnostics(*simulation).memory().contactLists > before,
                       simulation->contactReport()->rebuilds);
   };
   const auto [one, grew, rebuilds] = run(1);
@@ -328,7 +329,7 @@ TEST_F(VolumeStep, TooManyCellsBecomeLarger) {
   ASSERT_TRUE(simulation) << simulation.error().message;
   shake(*simulation, 0, 4);
   EXPECT_EQ(simulation->report()->nonfinite, 0u);
-  EXPECT_LT(simulation->memory().volume, 100u << 20);
+  EXPECT_LT(Diagnostics(*simulation).memory().volume, 100u << 20);
   const ContactReport report = *simulation->contactReport();
   EXPECT_GE(report.volumeCoarsest, 2);
   ASSERT_EQ(report.warnings().size(), 1u);

@@ -133,10 +133,10 @@ TEST_P(Backends, WritesAllFilesAndAllNumbers) {
   EXPECT_NEAR(out["compute_share"].get<double>(), computed / out["wall_s"]["frames"].get<double>(), 1e-9);
   for (const char* key : {"device", "driver", "kernel"})
     EXPECT_FALSE(out[key].get<std::string>().empty()) << key;
-  // 8 particles, 2 strands, and the head's poses: docs/memory.md.
+  // 8 particles, 2 strands, and the head's poses and numbers: docs/memory.md.
   const auto device = ComputeDevice::open();
   const int ofParticle = device && device->gpu().properties().isCpu ? 64 + 56 : 68 + 24;
-  EXPECT_EQ(out["device_bytes"], isOnDevice ? json(8 * ofParticle + 2 * 136 + 3 * 341 * 48) : json());
+  EXPECT_EQ(out["device_bytes"], isOnDevice ? json(8 * ofParticle + 2 * 136 + 3 * (341 * 48 + 88)) : json());
   EXPECT_EQ(out["positions_hash"].get<std::string>().size(), 16u);
   EXPECT_EQ(out["outputs"], (json{"out/hair.usda", "out/last.obj", "out/sheet.png"}));
 

@@ -60,7 +60,7 @@ def test_what_float32_does_not_hold_is_refused():
 
 # The names of arguments, how they are given, and whether they hold complex and masked ones as arrays do.
 def test_every_argument_refuses_what_is_masked_or_complex(device, swatch):
-    asset = ringlet.Asset(device, swatch, bodies=True, moving_roots=True, forces=True, goals=True, fields=True)
+    asset = ringlet.Asset(device, swatch, features=["bodies", "roots", "forces", "goals", "fields"])
     hair = ringlet.Hair(asset)
     count, strands = swatch.particle_count, swatch.strand_count
     steps = asset.settings.steps_per_frame
@@ -114,7 +114,7 @@ def test_numbers():
 
 # Every number that hair takes: what is not finite, and what float32 makes nothing of, is refused, or hair stays somewhere.
 def test_numbers_that_hair_cannot_have(device, swatch):
-    asset = ringlet.Asset(device, swatch, bodies=True, moving_roots=True, forces=True, goals=True, fields=True)
+    asset = ringlet.Asset(device, swatch, features=["bodies", "roots", "forces", "goals", "fields"])
     count, strands, steps = swatch.particle_count, swatch.strand_count, asset.settings.steps_per_frame
     turned = np.float64([0, 0, 0, 0, 0, 0, 1])
 

@@ -288,7 +288,7 @@ def test_devices_assets_and_hair(device, groom, small):
     with pytest.raises(ValueError, match="heads"):
         ringlet.Asset(device, groom, heads=0)
     with pytest.raises(ringlet.Error, match="jacobi"):
-        ringlet.Asset(device, groom, settings=ringlet.Settings(integrator="paper"), bodies=True)
+        ringlet.Asset(device, groom, settings=ringlet.Settings(integrator="paper"), features=["bodies"])
     with pytest.raises(ringlet.Error, match="core_elongation"):
         ringlet.Asset(device, groom, ringlet.Material(core_elongation_low=2, core_elongation_high=1.5))
     with pytest.raises(ringlet.Error, match="hold"):
@@ -301,11 +301,18 @@ def test_devices_assets_and_hair(device, groom, small):
         ringlet.Asset(device, huge)
     rows = np.tile([0.0, 0, 0, 0, 0, 0, 1], (2, 1))
     for values in ({"head": (0, 0, 0)}, {"one_step_earlier": rows}, {"bodies": 3}, {"bodies": [3]}, {"bodies": None},
-                   {"roots": rows}, {"roots_earlier": rows}, {"root_shifts": np.zeros((3, 3))}, {"root_shifts": [1, 2]},
+                   {"roots": rows[:1]}, {"roots_earlier": rows}, {"root_shifts": np.zeros((3, 3))}, {"root_shifts": [1, 2]},
                    {"root_shifts": np.full((2, 3), math.nan)}, {"body_places": rows}, {"root_shifts": "x"}):
         with pytest.raises(BOTH):
             ringlet.Hair(small, **values)
-    moving = ringlet.Asset(device, groom, moving_roots=True)
+    for wrong in (["bodys"], "bodies", [1], None, 3):
+        with pytest.raises(BOTH):
+            ringlet.Asset(device, groom, features=wrong)
+        with pytest.raises(BOTH):
+            ringlet.Hair(small).prepare(wrong)
+    with pytest.raises(ValueError, match="did you mean bodies"):
+        ringlet.Asset(device, groom, features=["bodys"])
+    moving = ringlet.Asset(device, groom, features=["roots"])
     for values in ({"roots": rows[:1]}, {"roots": rows, "roots_earlier": rows[:1]}, {"roots_earlier": rows},
                    {"roots": rows * math.nan}, {"roots": rows[:, :6]}):
         with pytest.raises(BOTH):
@@ -327,11 +334,11 @@ def test_frames(device, groom, small):
             with pytest.raises(BOTH):
                 call(wrong)
     for name in ("body_poses", "root_poses"):
-        for wrong in (rows, np.tile(rows, (2, 1)), "x", 3, rows * math.nan):
+        for wrong in (rows, np.tile(rows, (3, 1)), "x", 3, rows * math.nan):
             for call in (hair.step, hair.submit):
                 with pytest.raises(BOTH):
                     call(**{name: wrong})
-    moving = ringlet.Hair(ringlet.Asset(device, groom, moving_roots=True, bodies=True), bodies=[ringlet.Body.plane()])
+    moving = ringlet.Hair(ringlet.Asset(device, groom, features=["roots", "bodies"]), bodies=[ringlet.Body.plane()])
     for values in ({"root_poses": rows}, {"body_poses": rows[:-1]}, {"body_poses": np.tile(rows, (2, 1))}):
         with pytest.raises(ValueError, match="for each of 8 steps"):
             moving.step(**values)
@@ -414,7 +421,7 @@ def test_states_and_changes(small):
                           ({"line_density": 1}, ringlet.Error)):
         with pytest.raises(error):
             hair.set_material(**values)
-    for values, error in (((3,), TypeError), (([ringlet.Body.plane()],), ringlet.Error),
+    for values, error in (((3,), TypeError), (([ringlet.Body.plane(), 3],), TypeError),
                           (([], [ringlet.Pose()]), ValueError)):
         with pytest.raises(error):
             hair.set_bodies(*values)

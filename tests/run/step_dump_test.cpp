@@ -10,6 +10,7 @@
 
 #include "ringlet/run/scene_run.h"
 #include "ringlet/scenes/file/scene_file.h"
+#include "ringlet/solver/diagnostics.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/test_support.h"
 
@@ -40,7 +41,7 @@ class StepDump : public test::GpuTest {
     auto hair = Simulation::create(*asset, stateOf(all.placesAt(all.first()), scene));
     EXPECT_TRUE(hair);
     for (int frame = all.first(); frame < frames; ++frame) EXPECT_TRUE(stepScene(all, *hair, frame));
-    return *hair->bufferContents();
+    return *Diagnostics(*hair).bufferContents();
   }
   static std::string textOf(const std::vector<BufferContent>& contents, const std::string& name) {
     const auto found = std::ranges::find(contents, name, &BufferContent::name);

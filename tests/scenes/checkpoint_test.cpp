@@ -9,6 +9,7 @@
 #include "reference/step.h"
 #include "ringlet/base/archive.h"
 #include "ringlet/scene/motion.h"
+#include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/simulation.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/parity.h"
@@ -77,8 +78,8 @@ std::vector<Case> allCases() {
   cases.back().settings.contacts.method = ContactMethod::explicitPairs;
   cases.back().settings.contacts.radius = 0.006;
   cases.back().settings.air = {.on = true, .wind = {1, 0, 2}, .gust = 0.5, .turbulence = 1};
-  cases.push_back({.name = "moving roots", .kernel = {.movingRoots = true}});
-  cases.push_back({.name = "moving roots of rigid strands", .kernel = {.movingRoots = true}});
+  cases.push_back({.name = "moving roots", .kernel = {.features = {.roots = true}}});
+  cases.push_back({.name = "moving roots of rigid strands", .kernel = {.features = {.roots = true}}});
   cases.back().groom.addStrand(std::vector<Vec3f>{{1, 0, 0}, {1, 1e-7f, 0}, {1, 2e-7f, 1e-5f}});
   cases.push_back({.name = "chunks", .kernel = {.mostBufferBytes = 60000}});
   cases.push_back({.name = "a jump", .jumps = true});
@@ -103,7 +104,7 @@ std::vector<HeadPose> headsOf(const Case& one, int frame) {
 
 std::vector<BodyPose> rootsOf(const Case& one, int frame) {
   std::vector<BodyPose> roots;
-  if (!one.kernel.movingRoots) return roots;
+  if (!one.kernel.features.roots) return roots;
   for (int step = 1; step <= one.settings.stepsPerFrame; ++step) {
     for (std::size_t s = 0; s < one.groom.strandCount(); ++s) {
       const double swing = std::sin(0.1 * (4 * frame + step + double(s)));
@@ -115,7 +116,7 @@ std::vector<BodyPose> rootsOf(const Case& one, int frame) {
 
 // Of its lists: both particles, and what share of its spring and damper acts.
 std::vector<std::tuple<std::uint32_t, std::uint32_t, float, float>> pairsOf(const Simulation& simulation) {
-  const auto listed = simulation.listedContacts();
+  const auto listed = Diagnostics(simulation).listedContacts();
   EXPECT_TRUE(listed && !listed->empty()) << "no pair is in a list, and lists are not tested";
   std::vector<std::tuple<std::uint32_t, std::uint32_t, float, float>> pairs;
   for (const ListedContact& c : *listed) pairs.emplace_back(c.a, c.b, c.stiffnessShare, c.dampingShare);

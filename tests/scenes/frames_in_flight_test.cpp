@@ -48,7 +48,7 @@ class FramesInFlight : public GpuTest {
     auto simulation =
         Simulation::create(device(), cast.groom, cast.material, cast.settings,
                            {.head = cast.start, .bodies = cast.bodies, .rootShifts = cast.rootShifts},
-                           {.movingRoots = cast.movingRoots});
+                           {.features = {.roots = cast.movingRoots}});
     EXPECT_TRUE(simulation) << simulation.error().message;
     return std::move(*simulation);
   }

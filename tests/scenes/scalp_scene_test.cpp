@@ -52,7 +52,7 @@ class ScalpScene : public GpuTest {
                                           .oneStepEarlier = head.poseAt(begin - T),
                                           .roots = roots0,
                                           .rootsEarlier = earlier},
-                                         {.movingRoots = true});
+                                         {.features = {.roots = true}});
     ASSERT_TRUE(simulation) << simulation.error().message;
     for (double t = begin; t < end - T;) {
       std::vector<HeadPose> heads;

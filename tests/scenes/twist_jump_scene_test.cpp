@@ -7,6 +7,7 @@
 
 #include "layout/strands.h"
 #include "ringlet/measure/frame_turn.h"
+#include "ringlet/solver/diagnostics.h"
 #include "tests/scenes/scene_runs.h"
 #include "tests/support/tolerances.h"
 
@@ -33,7 +34,7 @@ class TwistJump : public SceneTest {
     for (int step = 0; step < scene.frameCount; ++step) {
       measured.look(*simulation->positions(), 1);  // a step's frames are those of its start
       EXPECT_TRUE(simulation->stepFrame(posesOfFrame(scene, step)));
-      const auto frames = *simulation->tap(layout::kTapFrame);
+      const auto frames = *Diagnostics(*simulation).tap(layout::kTapFrame);
       for (std::size_t i = 0; i + 2 < before.size(); ++i) {  // the last edge's frame holds none
         double cosine = 0;
         for (std::size_t k = 0; k < 4; ++k) cosine += double(before[i][k]) * frames[i][k];

@@ -110,8 +110,9 @@ void KernelInputs::look(const std::string& kernel, const SpirvBlock& block, std:
         std::uint32_t value = 0;
         std::memcpy(&value, bytes.data() + at, 4);
         if (!seen.first) seen.first = value;
-        const bool isNew = value != *seen.first;  // of push constants, each dispatch's are all in use
-        if (isNew && (block.isPushed || !isNeutral(member, w, value))) seen.setBy = caseName;
+        const bool isNew = value != *seen.first;
+        const bool isAllInUse = block.isPushed || block.isUniform;
+        if (isNew && (isAllInUse || !isNeutral(member, w, value))) seen.setBy = caseName;
       }
     }
   }

@@ -27,6 +27,7 @@ struct SpirvBlock {
   std::uint32_t binding = 0;         // of a buffer
   bool isWritten = false;            // not declared readonly
   bool isPushed = false;             // push constants
+  bool isUniform = false;            // a uniform buffer
   std::uint32_t stride = 0;          // from one record to the next [bytes]; 0: there is one
   std::string record;                // the struct that it holds; of numbers and vectors: empty
   std::vector<SpirvMember> members;  // of a record, those that the code reads or writes
@@ -64,7 +65,9 @@ class SpirvModule {
       one.name = names_.at(block);
       one.isPushed = pushed_.count(variable) != 0;
       if (bindings_.count(variable)) one.binding = bindings_.at(variable);
-      one.isWritten = !one.isPushed && !readonly_.count(variable) && !readonly_.count(block);
+      one.isUniform = uniform_.count(variable) != 0;
+      one.isWritten =
+          !one.isPushed && !one.isUniform && !readonly_.count(variable) && !readonly_.count(block);
       Id inner = structTypes_.at(block).front();
       std::size_t depth = 0;  // of the index that says which member
       if (arrayElements_.count(inner) && structTypes_.at(block).size() == 1) {
@@ -99,7 +102,7 @@ class SpirvModule {
     enum : std::uint32_t { kLoad = 61, kAccessChain = 65, kInBoundsAccessChain = 66 };
     enum : std::uint32_t { kTypePointer = 32, kVariable = 59, kDecorate = 71, kMemberDecorate = 72 };
     enum : std::uint32_t { kBlock = 2, kBufferBlock = 3, kArrayStride = 6, kNonWritable = 24, kBinding = 33 };
-    enum : std::uint32_t { kOffset = 35, kPushConstant = 9 };
+    enum : std::uint32_t { kOffset = 35, kUniform = 2, kPushConstant = 9 };
     switch (word[0] & 0xffff) {
       case kName:
         names_[word[1]] = reinterpret_cast<const char*>(&word[2]);
@@ -129,6 +132,7 @@ class SpirvModule {
       case kVariable:
         variables_[word[2]] = word[1];
         if (word[3] == kPushConstant) pushed_.insert(word[2]);
+        if (word[3] == kUniform) uniform_.insert(word[2]);  // storage buffers are of a class of their own
         break;
       case kAccessChain:
       case kInBoundsAccessChain:
@@ -180,7 +184,7 @@ class SpirvModule {
   std::map<Id, Vector> vectors_;
   std::map<Id, Id> lengths_;  // of arrays: the constant
   std::map<Id, std::uint32_t> sizes_, strides_, constants_;
-  std::set<Id> blocks_, pushed_, readonly_;
+  std::set<Id> blocks_, pushed_, uniform_, readonly_;
   std::map<Id, Id> pointees_, variables_;  // of variables: the pointer's type
   std::map<Id, std::uint32_t> bindings_;
   std::map<Id, std::vector<std::vector<Id>>> chains_;  // of variables: the indices that code asks by

@@ -98,7 +98,7 @@ TEST_F(SessionTest, KeysAreThoseOfARun) {
   Session session = make(scene);
   const auto found = run(session, 8);
   KernelChoice kernel;
-  kernel.fields = true;
+  kernel.features.fields = true;
   auto expected = Simulation::create(device(), loaded.groom, loaded.material, loaded.settings,
                                      {.bodies = loaded.bodies}, kernel);
   ASSERT_TRUE(expected) << expected.error().message;

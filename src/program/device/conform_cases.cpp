@@ -259,13 +259,13 @@ void checkSurroundings(const ConformCases& cases, const Tell& tell) {
     if (isSerial) c.kernel.form = KernelChoice::Form::serial;
     const char* form = isSerial ? ", serial" : "";
     parity::ParityCase pulled = c;
-    pulled.kernel.forces = true;
+    pulled.kernel.features.forces = true;
     checkStep(cases.device, pulled, fmt::format("forces from outside{}", form), parity::kOneStep, tell);
     parity::ParityCase aimed = c;
-    aimed.kernel.goals = true;
+    aimed.kernel.features.goals = true;
     checkStep(cases.device, aimed, fmt::format("goals{}", form), parity::kOneStep, tell);
     parity::ParityCase inFields = c;
-    inFields.kernel.fields = true;
+    inFields.kernel.features.fields = true;
     checkStep(cases.device, inFields, fmt::format("fields{}", form), parity::kOneStep, tell);
     parity::ParityCase airy = c;
     airy.settings.air = {.on = true, .fallSpeed = 2, .wind = {5, 0, 1}, .gust = 0.5, .turbulence = 2};

@@ -13,6 +13,7 @@
 #include "parity/tolerances.h"
 #include "program/cli/interruption.h"
 #include "program/cli/progress_bar.h"
+#include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/plan/shape_plan.h"
 #include "ringlet/solver/plan/subgroup_choice.h"
 #include "ringlet/solver/simulation.h"
@@ -135,9 +136,9 @@ struct Runner {
   }
 
   Status time() {
-    const double before = simulation.stageMilliseconds()["strand_step"];
+    const double before = Diagnostics(simulation).stageMilliseconds()["strand_step"];
     if (Status stepped = stepWork(result.work, simulation); !stepped) return stepped;
-    samples.push_back(simulation.stageMilliseconds()["strand_step"] - before);
+    samples.push_back(Diagnostics(simulation).stageMilliseconds()["strand_step"] - before);
     return {};
   }
 

@@ -123,10 +123,12 @@ Outcome checkFree(const ringlet_hair& hair) {
   return Outcome::invalid("a frame of the hair is in a host's commands: call ringlet_frame_is_over first");
 }
 
-Outcome checkBuiltFor(bool isBuiltForIt, const char* what, const char* option) {
-  if (isBuiltForIt) return {};
-  return Error{fmt::format("the hair's asset was built without {}; set {} in its ringlet_asset_options", what,
-                           option)};
+Outcome takeFeatures(std::uint32_t bits, Features& features) {
+  if (bits >> kFeatureNames.size() != 0)
+    return Outcome::invalid(fmt::format("features {:#x}; expected bits of ringlet_features", bits));
+  for (std::size_t k = 0; k < kFeatureNames.size(); ++k)
+    features.*kFeatureNames[k].member = (bits >> k & 1) != 0;
+  return {};
 }
 
 }  // namespace ringlet::c

@@ -72,9 +72,6 @@ ringlet_result ringlet_hair_set_forces(ringlet_hair* hair, const float* xyz, uin
           fmt::format("ringlet_hair_set_forces takes hair, and forces for its {} particles",
                       hair ? hair->particleCount : 0));
     if (Outcome outcome = checkProcess(*hair); !outcome.isFine()) return outcome;
-    if (Outcome outcome = checkBuiltFor(hair->builtFor.forces, "forces from outside", "has_forces");
-        !outcome.isFine())
-      return outcome;
     return hair->simulation.setForces(takeVectors(xyz, particle_count));
   });
 }
@@ -88,8 +85,6 @@ ringlet_result ringlet_hair_set_goals(ringlet_hair* hair, const ringlet_goals* g
           "says its size",
           hair ? hair->particleCount : 0));
     if (Outcome outcome = checkProcess(*hair); !outcome.isFine()) return outcome;
-    if (Outcome outcome = checkBuiltFor(hair->builtFor.goals, "goals", "has_goals"); !outcome.isFine())
-      return outcome;
     const std::vector<Vec3f> places = takeVectors(from.places, from.particle_count);
     const std::vector<Vec3f> before = takeVectors(from.from, from.particle_count);
     const std::vector<float> strengths(from.strengths, from.strengths + from.particle_count);
@@ -105,8 +100,6 @@ ringlet_result ringlet_hair_set_fields(ringlet_hair* hair, const ringlet_field* 
         !wrong.isFine())
       return wrong;
     if (Outcome outcome = checkProcess(*hair); !outcome.isFine()) return outcome;
-    if (Outcome outcome = checkBuiltFor(hair->builtFor.fields, "fields", "has_fields"); !outcome.isFine())
-      return outcome;
     std::vector<ForceField> after, before;
     if (Outcome outcome = takeFields(fields, field_count, after); !outcome.isFine()) return outcome;
     if (from) {

@@ -7,6 +7,7 @@
 #include "ringlet/bodies/mesh_grid.h"
 #include "ringlet/c/handles.h"
 #include "ringlet/c/poses.h"
+#include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/hair_frames.h"
 
 namespace ringlet::c {
@@ -38,9 +39,6 @@ Outcome take(const ringlet_frame& frame, TakenFrame& taken) {
   if (frame.step_count != steps)
     return Outcome::invalid(fmt::format(
         "a frame has {} poses of the head; its settings have {} steps a frame", frame.step_count, steps));
-  if (frame.root_poses && !hair.builtFor.movingRoots)
-    return Outcome::invalid(
-        "strands have poses of their own only where the asset's options say moving_roots");
   taken.hair = &hair;
   const std::size_t bodies = std::size_t{steps} * hair.bodyCount;
   const std::size_t roots = std::size_t{steps} * hair.strandCount;
@@ -114,10 +112,6 @@ Outcome takeBodies(const ringlet_body* from, std::uint32_t count, std::vector<Bo
   return {};
 }
 
-Outcome checkBodies(const BuiltFor& builtFor, std::uint32_t count) {
-  return checkBuiltFor(builtFor.bodies || count == 0, "bodies", "has_bodies");
-}
-
 Outcome fill(const std::vector<Vec3f>& values, float* xyz, std::uint64_t particleCount) {
   if (!xyz || particleCount != values.size())
     return Outcome::invalid(fmt::format("there is room for {} particles, and the hair has {}",
@@ -157,18 +151,12 @@ Outcome checkStrands(const Groom& groom) {
 Outcome buildAsset(const ComputeDevice& device, const Groom& groom, const Settings& settings,
                    const Material& material, const ringlet_asset_options& options, ringlet_asset** asset) {
   KernelChoice kernel;
-  kernel.movingRoots = options.moving_roots != 0;
-  kernel.forces = options.has_forces != 0;
-  kernel.goals = options.has_goals != 0;
-  kernel.fields = options.has_fields != 0;
+  if (Outcome outcome = takeFeatures(options.features, kernel.features); !outcome.isFine()) return outcome;
   kernel.heads = std::max(1, options.heads);
-  auto built = HairAsset::build(device, groom, material, settings, kernel,
-                                options.has_bodies ? BodyUse::some : BodyUse::none);
+  auto built = HairAsset::build(device, groom, material, settings, kernel);
   if (!built) return built.error();
   warnOf(built->warnings(), options.warn, options.user);
-  const BuiltFor builtFor{options.has_bodies != 0, kernel.movingRoots, kernel.forces,
-                          kernel.goals || settings.goal.on, kernel.fields};
-  *asset = new ringlet_asset{std::move(*built), device, builtFor};
+  *asset = new ringlet_asset{std::move(*built), device};
   return {};
 }
 
@@ -178,7 +166,6 @@ Outcome createHair(const ringlet_asset& asset, const InitialState& initial, ring
   std::vector<DevicePositions> positions = made->devicePositions();
   *hair = new ringlet_hair{.simulation = std::move(*made),
                            .device = asset.device,
-                           .builtFor = asset.builtFor,
                            .particleCount = asset.asset.particleCount(),
                            .strandCount = asset.asset.strandCount(),
                            .bodyCount = static_cast<std::uint32_t>(initial.bodies.size()),
@@ -195,6 +182,9 @@ using namespace ringlet::c;
 static_assert(int(BodyShape::sphere) == RINGLET_SPHERE && int(BodyShape::capsule) == RINGLET_CAPSULE &&
               int(BodyShape::plane) == RINGLET_PLANE && int(BodyShape::box) == RINGLET_BOX &&
               int(BodyShape::grid) == RINGLET_MESH);
+static_assert(kFeatureNames[0].member == &Features::bodies && kFeatureNames[1].member == &Features::roots &&
+              kFeatureNames[2].member == &Features::forces && kFeatureNames[3].member == &Features::goals &&
+              kFeatureNames[4].member == &Features::fields && RINGLET_FIELDS == 1 << 4);
 
 ringlet_result ringlet_asset_build(ringlet_device* device, const ringlet_groom* groom,
                                    const ringlet_settings* settings, const ringlet_material* material,
@@ -234,7 +224,6 @@ ringlet_result ringlet_hair_create(ringlet_asset* asset, const ringlet_initial_s
     const auto head = poseOf<HeadPose>(from.head);
     if (!head) return notFinite("the head");
     std::vector<Body> bodies;
-    if (Outcome outcome = checkBodies(asset->builtFor, from.body_count); !outcome.isFine()) return outcome;
     if (Outcome outcome = takeBodies(from.bodies, from.body_count, bodies); !outcome.isFine()) return outcome;
     return createHair(*asset, {.head = *head, .bodies = bodies, .readsBack = from.keeps_on_device == 0},
                       hair);
@@ -287,7 +276,7 @@ ringlet_result ringlet_frame_is_over(ringlet_hair* hair) {
       return wrong;
     if (Outcome outcome = checkProcess(*hair); !outcome.isFine()) return outcome;
     hair->recordedFrames = std::max(0, hair->recordedFrames - 1);
-    return hair->simulation.frameIsOver();
+    return frameIsOver(hair->simulation);
   });
 }
 
@@ -371,13 +360,24 @@ ringlet_result ringlet_hair_cut(ringlet_hair* hair, const ringlet_cut* cuts, uin
   });
 }
 
+ringlet_result ringlet_hair_prepare(ringlet_hair* hair, uint32_t features) {
+  return guarded([&]() -> Outcome {
+    if (Outcome wrong = checkArguments("ringlet_hair_prepare takes hair", {given("hair", hair)});
+        !wrong.isFine())
+      return wrong;
+    if (Outcome outcome = checkFree(*hair); !outcome.isFine()) return outcome;
+    Features wanted;
+    if (Outcome outcome = takeFeatures(features, wanted); !outcome.isFine()) return outcome;
+    return hair->simulation.prepare(wanted);
+  });
+}
+
 ringlet_result ringlet_hair_set_bodies(ringlet_hair* hair, const ringlet_body* bodies, uint32_t body_count) {
   return guarded([&]() -> Outcome {
     if (Outcome wrong = checkArguments("ringlet_hair_set_bodies takes hair", {given("hair", hair)});
         !wrong.isFine())
       return wrong;
     if (Outcome outcome = checkFree(*hair); !outcome.isFine()) return outcome;
-    if (Outcome outcome = checkBodies(hair->builtFor, body_count); !outcome.isFine()) return outcome;
     std::vector<Body> taken;
     if (Outcome outcome = takeBodies(bodies, body_count, taken); !outcome.isFine()) return outcome;
     if (Status status = hair->simulation.setBodies(taken); !status) return status;
@@ -397,8 +397,8 @@ ringlet_result ringlet_get_report(const ringlet_hair* hair, ringlet_report* repo
     if (!told) return told.error();
     const auto contacts = hair->simulation.contactReport();
     if (!contacts) return contacts.error();
-    give(report,
-         {0, told->maxEdgeStretch, told->nonfinite, contacts->contacts, hair->simulation.memory().total()});
+    give(report, {0, told->maxEdgeStretch, told->nonfinite, contacts->contacts,
+                  Diagnostics(hair->simulation).memory().total()});
     return {};
   });
 }

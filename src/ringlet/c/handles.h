@@ -29,22 +29,14 @@ struct ringlet_settings {
 struct ringlet_material {
   ringlet::Material material;
 };
-namespace ringlet::c {
-/// What an asset was built for: ringlet_asset_options.
-struct BuiltFor {
-  bool bodies = false, movingRoots = false, forces = false, goals = false, fields = false;
-};
-}  // namespace ringlet::c
 struct ringlet_asset {
   ringlet::HairAsset asset;
   ringlet::ComputeDevice device;
-  ringlet::c::BuiltFor builtFor{};
   std::shared_ptr<const void> scene{};  // that it was built of; none: a groom of the caller's
 };
 struct ringlet_hair {
   ringlet::Simulation simulation;
   ringlet::ComputeDevice device;
-  ringlet::c::BuiltFor builtFor{};
   std::uint64_t particleCount, strandCount;
   std::uint32_t bodyCount;
   std::vector<ringlet::DevicePositions> devicePositions{};
@@ -152,6 +144,7 @@ Outcome checkProcess(const ringlet_hair& hair);
 /// The same, and no frame of it is in a host's commands.
 Outcome checkFree(const ringlet_hair& hair);
 /// Whether hair was built for something; `option` is the member of ringlet_asset_options that says so.
-Outcome checkBuiltFor(bool isBuiltForIt, const char* what, const char* option);
+/// Fails where a bit is none of ringlet_features.
+Outcome takeFeatures(std::uint32_t bits, Features& features);
 
 }  // namespace ringlet::c

@@ -188,11 +188,9 @@ ringlet_result ringlet_scene_build(ringlet_device* device, const ringlet_scene* 
       return wrong;
     const LoadedScene& of = *scene->loaded;
     ringlet_asset_options chosen = taken(options);
-    const KernelChoice needs = kernelOf(of);
-    chosen.has_bodies = chosen.has_bodies || !of.bodies.empty();
-    chosen.moving_roots = chosen.moving_roots || needs.movingRoots;
-    chosen.has_goals = chosen.has_goals || needs.goals;
-    chosen.has_fields = chosen.has_fields || needs.fields;
+    const Features needs = featuresOf(of);
+    for (std::size_t k = 0; k < kFeatureNames.size(); ++k)
+      if (needs.*kFeatureNames[k].member) chosen.features |= std::uint32_t{1} << k;
     Outcome outcome = c::buildAsset(device->device, of.groom, of.settings, of.material, chosen, asset);
     if (outcome.isFine()) (*asset)->scene = scene->loaded;
     return outcome;

@@ -137,18 +137,24 @@ typedef struct ringlet_groom {
   double metres_per_unit; /* unit of the points; 0 means 1 */
 } ringlet_groom;
 
+/* What acts on hair from outside, besides its head and the air. A feature is added when it is first used,
+   which compiles kernels, or before by ringlet_asset_options or ringlet_hair_prepare. */
+typedef enum ringlet_features {
+  RINGLET_BODIES = 1, /* ringlet_hair_set_bodies */
+  RINGLET_ROOTS = 2,  /* root poses of frames */
+  RINGLET_FORCES = 4, /* ringlet_hair_set_forces */
+  RINGLET_GOALS = 8,  /* ringlet_hair_set_goals */
+  RINGLET_FIELDS = 16 /* ringlet_hair_set_fields */
+} ringlet_features;
+
 typedef struct ringlet_asset_options {
   size_t struct_size;
-  int has_bodies;   /* 1 if the hair will have bodies to stay out of */
-  int moving_roots; /* 1 if frames will have root poses */
   int32_t heads; /* approximate number of heads with this hair; 0 means 1. With 2 or more, one dispatch steps
                     many heads of hair by itself */
   /* Called for each warning, with a sentence for the user, before build returns. May be NULL. */
   void (*warn)(const char* sentence, void* user);
   void* user;
-  int has_forces; /* 1 if ringlet_hair_set_forces will be called */
-  int has_goals;  /* 1 if ringlet_hair_set_goals will be called */
-  int has_fields; /* 1 if ringlet_hair_set_fields will be called */
+  uint32_t features; /* ringlet_features that hair begins with; others are added when they are first used */
 } ringlet_asset_options;
 
 /* Prepares hair for any number of heads. `settings`, `material` and `options` may be NULL. The function
@@ -247,12 +253,14 @@ ringlet_result ringlet_get_device_positions(const ringlet_hair* hair, uint32_t i
 ringlet_result ringlet_hair_set_settings(ringlet_hair* hair, const ringlet_settings* settings);
 ringlet_result ringlet_hair_set_material(ringlet_hair* hair, const ringlet_material* material);
 
+/* Adds features (bits of ringlet_features) now, as their first use would (Simulation::prepare). */
+ringlet_result ringlet_hair_prepare(ringlet_hair* hair, uint32_t features);
+
 /* Replaces all bodies, by any number. They stand where their poses in the head's frame say. */
 ringlet_result ringlet_hair_set_bodies(ringlet_hair* hair, const ringlet_body* bodies, uint32_t body_count);
 
 /* Sets external forces: an acceleration x, y, z for every particle in the groom's order [m/s^2], each number
-   from -1e6 to 1e6, which acts until others are set (Simulation::setForces). The asset's options must have
-   has_forces. */
+   from -1e6 to 1e6, which acts until others are set (Simulation::setForces). */
 ringlet_result ringlet_hair_set_forces(ringlet_hair* hair, const float* xyz, uint64_t particle_count);
 
 /* Places that particles are pulled to (Simulation::setGoals), in the groom's order and axes, carried by the
@@ -267,7 +275,7 @@ typedef struct ringlet_goals {
   int undamped;         /* 1 for a damping ratio of 0 */
   const float* from;    /* places at the beginning of the next frame; NULL: those set before */
 } ringlet_goals;
-/* Sets goals, which act until others are set. The asset's options must have has_goals. */
+/* Sets goals, which act until others are set. */
 ringlet_result ringlet_hair_set_goals(ringlet_hair* hair, const ringlet_goals* goals);
 
 /* What acts at places in the world: accelerations [m/s^2], or with drag velocities of air [m/s]
@@ -288,7 +296,7 @@ typedef struct ringlet_field {
   double grid_share;            /* factor on the grid's velocities; 0 means 1 */
 } ringlet_field;
 /* Replaces all fields, until others are set (Simulation::setFields). `from`: as they are at the beginning of
-   the next frame, as many; NULL: they do not change in it. The asset's options must have has_fields. */
+   the next frame, as many; NULL: they do not change in it. */
 ringlet_result ringlet_hair_set_fields(ringlet_hair* hair, const ringlet_field* fields,
                                        const ringlet_field* from, uint32_t field_count);
 

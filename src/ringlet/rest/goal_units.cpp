@@ -6,12 +6,13 @@
 
 namespace ringlet {
 
-std::vector<GoalUnit> goalUnits(const RestState& rest, bool shape) {
+std::vector<GoalUnit> goalUnits(std::span<const layout::StrandRest> strands,
+                                std::span<const layout::ParticleRest> all, bool shape) {
   const double k = goalStiffness(1);
-  std::vector<GoalUnit> units(rest.particles.size(), {k, goalDamping(k, 1)});
+  std::vector<GoalUnit> units(all.size(), {k, goalDamping(k, 1)});
   if (!shape) return units;
-  for (const layout::StrandRest& strand : rest.strands) {
-    const std::span particles(rest.particles.begin() + strand.firstParticle, strand.particleCount);
+  for (const layout::StrandRest& strand : strands) {
+    const auto particles = all.subspan(strand.firstParticle, strand.particleCount);
     double mass = 0, arc = 0;  // [mass unit], [m]
     for (const layout::ParticleRest& particle : particles) mass += static_cast<double>(particle.mass);
     for (const layout::ParticleRest& particle : particles.first(particles.size() - 1))

@@ -2,6 +2,7 @@
 // edge.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "ringlet/rest/goal.h"
@@ -20,6 +21,7 @@ struct GoalUnit {
 /// edge tipward to a vector, with the particle's mass m, as a bend spring would whose stiffness is the
 /// strength: with w [N] per edge length l, damped by S sqrt(w lambda) per edge length (rest/material.h); of a
 /// strand's last particle the unit is of no use.
-std::vector<GoalUnit> goalUnits(const RestState& rest, bool shape);
+std::vector<GoalUnit> goalUnits(std::span<const layout::StrandRest> strands,
+                                std::span<const layout::ParticleRest> particles, bool shape);
 
 }  // namespace ringlet

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "ringlet/run/scene_run.h"
+#include "ringlet/solver/diagnostics.h"
 
 namespace ringlet {
 namespace {
@@ -38,18 +39,18 @@ class DeviceHair : public SceneHair {
     return HairReports{*hair, *contacts};
   }
   HairTimes times() const override {
-    return {simulation_.stageMilliseconds(), simulation_.hostMilliseconds()};
+    return {Diagnostics(simulation_).stageMilliseconds(), Diagnostics(simulation_).hostMilliseconds()};
   }
-  std::vector<StageSpan> frameStages() const override { return simulation_.frameStages(); }
+  std::vector<StageSpan> frameStages() const override { return Diagnostics(simulation_).frameStages(); }
   // The validation layer's messages too, where it is on.
   HairFacts facts() const override {
     HairFacts facts{.device = device_.name(),
                     .driver = device_.driver(),
-                    .kernel = simulation_.kernelDescription(),
-                    .rigidStrandCount = simulation_.rigidStrandCount(),
+                    .kernel = Diagnostics(simulation_).kernels(),
+                    .rigidStrandCount = Diagnostics(simulation_).rigidStrandCount(),
                     .isTuned = isTuned_,
-                    .compileMilliseconds = simulation_.compileMilliseconds(),
-                    .deviceBytes = simulation_.memory().total(),
+                    .compileMilliseconds = Diagnostics(simulation_).compileMilliseconds(),
+                    .deviceBytes = Diagnostics(simulation_).memory().total(),
                     .warnings = simulation_.warnings(),
                     .messages = messages_};
     const std::vector<std::string> said = device_.validationMessages();

@@ -12,6 +12,7 @@
 #include "ringlet/measure/body_watch.h"
 #include "ringlet/measure/contact_numbers.h"
 #include "ringlet/run/scene_hair.h"
+#include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/simulation.h"
 
 namespace ringlet {

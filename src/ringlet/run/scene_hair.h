@@ -16,6 +16,7 @@
 #include "ringlet/base/vec3.h"
 #include "ringlet/scenes/frames/scene_frames.h"
 #include "ringlet/scenes/load/load_scene.h"
+#include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/simulation.h"
 
 namespace ringlet {

@@ -18,17 +18,21 @@ struct Changeable {
 
 }  // namespace
 
+Features featuresOf(const LoadedScene& scene) {
+  return {.bodies = !scene.bodies.empty(),
+          .roots = scene.scalp.has_value(),
+          .goals = scene.forces.haveGoals(),
+          .fields = scene.forces.haveFields()};
+}
+
 KernelChoice kernelOf(const LoadedScene& scene, KernelChoice kernel) {
-  kernel.movingRoots = kernel.movingRoots || scene.scalp.has_value();
-  kernel.goals = kernel.goals || scene.forces.haveGoals();
-  kernel.fields = kernel.fields || scene.forces.haveFields();
+  kernel.features = kernel.features | featuresOf(scene);
   return kernel;
 }
 
 Result<HairAsset> buildAsset(const ComputeDevice& device, const LoadedScene& scene,
                              const KernelChoice& kernel) {
-  return HairAsset::build(device, scene.groom, scene.material, scene.settings, kernelOf(scene, kernel),
-                          scene.bodies.empty() ? BodyUse::none : BodyUse::some);
+  return HairAsset::build(device, scene.groom, scene.material, scene.settings, kernelOf(scene, kernel));
 }
 
 InitialState stateOf(const ScenePlaces& places, const LoadedScene& scene) {

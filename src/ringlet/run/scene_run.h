@@ -17,7 +17,10 @@
 
 namespace ringlet {
 
-/// What an asset of the scene's hair must be built for: `kernel` with what the scene has besides.
+/// What acts on a scene's hair in some frame.
+Features featuresOf(const LoadedScene& scene);
+
+/// `kernel` with the scene's features besides.
 KernelChoice kernelOf(const LoadedScene& scene, KernelChoice kernel = {});
 /// HairAsset::build of the scene's groom, material and settings.
 Result<HairAsset> buildAsset(const ComputeDevice& device, const LoadedScene& scene,

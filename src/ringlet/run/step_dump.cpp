@@ -11,6 +11,7 @@
 #include "ringlet/base/whole_file.h"
 #include "ringlet/run/scene_run.h"
 #include "ringlet/scenes/frames/scene_frames.h"
+#include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/simulation.h"
 
 namespace ringlet {
@@ -37,7 +38,7 @@ Status stepTo(std::uint64_t last, const LoadedScene& scene, const SceneFrames& f
 }
 
 Status writeBuffers(const Simulation& hair, const fs::path& folder) {
-  const auto contents = hair.bufferContents();
+  const auto contents = Diagnostics(hair).bufferContents();
   if (!contents) return contents.error();
   std::string list;
   for (const BufferContent& buffer : *contents) {

@@ -11,7 +11,7 @@
 namespace ringlet {
 
 /// Steps the scene's hair as a run does, to the end of a step, 1 being the first after the pre-roll, and
-/// writes each buffer (Simulation::bufferContents) into the new folder: NAME.bin, with _ for spaces, and
+/// writes each buffer (Diagnostics::bufferContents) into the new folder: NAME.bin, with _ for spaces, and
 /// buffers.txt with a line for each, its bytes and its file. Errors: the folder is there, or cannot be
 /// written; the scene has fewer steps.
 Status dumpStep(const LoadedScene& scene, const DeviceHairChoice& choice, std::uint64_t step,

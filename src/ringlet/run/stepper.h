@@ -14,6 +14,7 @@
 #include "ringlet/measure/contact_watch.h"
 #include "ringlet/run/run_outcome.h"
 #include "ringlet/run/scene_hair.h"
+#include "ringlet/solver/diagnostics.h"
 
 namespace ringlet {
 

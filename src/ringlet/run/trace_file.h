@@ -7,6 +7,7 @@
 #include <span>
 
 #include "ringlet/base/result.h"
+#include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/simulation.h"
 
 namespace ringlet {

@@ -189,8 +189,8 @@ std::span<const SettingField<ContactSettings>> contactFields() {
   return all;
 }
 
-layout::ContactParameters packed(const ContactSettings& settings, double stepSeconds) {
-  layout::ContactParameters p{};
+layout::ContactNumbers packed(const ContactSettings& settings, double stepSeconds) {
+  layout::ContactNumbers p{};
   p.seconds = static_cast<float>(stepSeconds);
   p.stiffness = static_cast<float>(settings.stiffness * kStandardGravity);
   p.dampingRatio = static_cast<float>(settings.dampingRatio);

@@ -9,6 +9,6 @@ namespace ringlet {
 
 /// The parameters that follow from settings and the step alone [s]; all others, which are sizes of buffers
 /// and the like, are 0.
-layout::ContactParameters packed(const ContactSettings& settings, double stepSeconds);
+layout::ContactNumbers packed(const ContactSettings& settings, double stepSeconds);
 
 }  // namespace ringlet

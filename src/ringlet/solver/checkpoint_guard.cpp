@@ -64,12 +64,6 @@ void addMaterial(Archive& facts, const Material& material) {
   }
 }
 
-void addChoice(Archive& facts, const KernelChoice& choice, BodyUse bodies) {
-  for (const bool has : {bodies == BodyUse::some, choice.movingRoots, choice.forces, choice.goals,
-                         choice.fields, choice.link != nullptr})
-    add(facts, has);
-}
-
 template <class T>
 std::uint64_t checksumOf(const std::vector<T>& list) {
   return checksum64(std::as_bytes(std::span(list)));
@@ -92,7 +86,7 @@ std::uint64_t HairAsset::Implementation::fingerprint() const {
   add(facts, device.driver());
   addSettings(facts, settings);
   addMaterial(facts, material);
-  addChoice(facts, choice, bodies);
+  add(facts, choice.link != nullptr);
   for (const std::uint64_t fact : {checksumOf(rest.strands), checksumOf(rest.points),
                                    checksumOf(rest.strandInGroom), std::uint64_t{rest.groomParticleCount}})
     add(facts, fact);

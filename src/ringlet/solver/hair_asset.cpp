@@ -12,6 +12,7 @@
 #include "ringlet/solver/part_link.h"
 #include "ringlet/solver/plan/dispatch_plan.h"
 #include "ringlet/solver/plan/subgroup_choice.h"
+#include "ringlet/solver/simulation.h"
 #include "ringlet/solver/strands/strand_kernels.h"
 
 namespace ringlet {
@@ -56,35 +57,16 @@ Result<RestHalo> restrictTo(const RestHair& hair, const PartLink& link) {
   return halo;
 }
 
-// Without what would be each head's own in a dispatch of many; none of it changes while hair moves.
-bool isByItself(const Settings& settings, const KernelChoice& choice, BodyUse bodies) {
-  return settings.integrator == Integrator::jacobi && !settings.contacts.on && !settings.air.on &&
-         bodies == BodyUse::none && !choice.movingRoots && !choice.forces && !choice.goals &&
-         !choice.fields && !choice.taps;
-}
+// The rest state of what is simulated here.
+struct AssetRest {
+  RestState state;
+  std::optional<RestContacts> contacts;
+  std::optional<RestVolume> volume;
+  std::optional<RestHalo> halo;
+};
 
-}  // namespace
-
-Status checkPart(const Settings& settings, const PartLink* link) {
-  if (settings.contacts.on && link == nullptr)
-    return Error{
-        "a part of hair with contacts needs a link to the others (KernelChoice::link); turn contacts off, or "
-        "use one device"};
-  if (settings.sleepSpeed > 0)
-    return Error{
-        "hair that may sleep cannot be divided among devices; set sleep_speed to 0, or use one device"};
-  return {};
-}
-
-Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& groom, const Material& material,
-                                   const Settings& settings, const KernelChoice& choice, BodyUse bodies) {
-  if (Status status = device.checkProcess(); !status) return status.error();
-  const bool hasBodies = bodies == BodyUse::some;
-  if (hasBodies && settings.integrator != Integrator::jacobi) return Error{kBodiesNeedJacobi};
-  if (choice.goals && settings.integrator != Integrator::jacobi)
-    return Error{"goals need the integrator jacobi; this run has another"};
-  if (choice.fields && settings.integrator != Integrator::jacobi)
-    return Error{"fields need the integrator jacobi; this run has another"};
+Result<AssetRest> restOf(const Groom& groom, const Material& material, const Settings& settings,
+                         const KernelChoice& choice) {
   const auto geometry = choice.geometry ? std::span(*choice.geometry) : std::span<const StrandGeometry>();
   auto whole =
       choice.rest ? Result<WholeRest>(*choice.rest) : buildWholeRest(groom, material, settings, geometry);
@@ -101,74 +83,153 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   } else if (!contacts && !choice.part.empty()) {
     if (Status restricted = restrictTo(rest, choice.part); !restricted) return restricted.error();
   }
+  return AssetRest{std::move(rest), std::move(contacts), std::move(volume), std::move(halo)};
+}
+
+// Without what would be each head's own in a dispatch of many; none of it changes while hair moves.
+bool isByItself(const Settings& settings, const KernelChoice& choice) {
+  return settings.integrator == Integrator::jacobi && !settings.contacts.on && !settings.air.on &&
+         !choice.features.any() && !choice.taps;
+}
+
+Status checkFeatures(const Features& features, const Settings& settings) {
+  if (settings.integrator == Integrator::jacobi) return {};
+  if (features.bodies) return Error{kBodiesNeedJacobi};
+  if (features.goals) return Error{"goals need the integrator jacobi; this run has another"};
+  if (features.fields) return Error{"fields need the integrator jacobi; this run has another"};
+  return {};
+}
+
+}  // namespace
+
+Status checkPart(const Settings& settings, const PartLink* link) {
+  if (settings.contacts.on && link == nullptr)
+    return Error{
+        "a part of hair with contacts needs a link to the others (KernelChoice::link); turn contacts off, or "
+        "use one device"};
+  if (settings.sleepSpeed > 0)
+    return Error{
+        "hair that may sleep cannot be divided among devices; set sleep_speed to 0, or use one device"};
+  return {};
+}
+
+Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& groom, const Material& material,
+                                   const Settings& settings, const KernelChoice& choice) {
+  if (Status status = device.checkProcess(); !status) return status.error();
+  if (Status status = checkFeatures(choice.features, settings); !status) return status.error();
+  auto rest = restOf(groom, material, settings, choice);
+  if (!rest) return rest.error();
+  auto& [state, contacts, volume, halo] = *rest;
   const auto limits = withSubgroupSize(device.limits(), choice.subgroupSize);
   if (!limits) return limits.error();
-
-  auto self = std::make_shared<Implementation>(Implementation{.device = device,
-                                                              .material = material,
-                                                              .settings = settings,
-                                                              .choice = choice,
-                                                              .bodies = bodies,
-                                                              .limits = *limits,
-                                                              .rest = std::move(rest),
-                                                              .halo = std::move(halo),
-                                                              .contacts = std::move(contacts),
-                                                              .volume = std::move(volume)});
+  auto self = std::make_shared<Implementation>(Implementation{
+      .device = device, .material = material, .settings = settings, .choice = choice, .limits = *limits});
+  self->plans = std::make_unique<FeaturePlans>();
+  self->rest = std::move(state);
+  self->halo = std::move(halo);
+  self->contacts = std::move(contacts);
+  self->volume = std::move(volume);
+  self->measured.assign(choice.measured.begin(), choice.measured.end());
   if (settings.goal.on) self->goal = goalOf(groom);
-  self->choice.goals = choice.goals || settings.goal.on;
-  if (self->choice.goals) self->goalUnits = goalUnits(self->rest, settings.goal.shape);
-  self->choice.measured = {};
+  self->choice.features.goals = choice.features.goals || settings.goal.on;
+  self->choice.measured = self->measured;
   self->choice.part = {};
   self->choice.geometry = nullptr;
   self->choice.rest = nullptr;
-  const std::vector<std::uint32_t> counts = particleCounts(self->rest);
   self->records = groomRecords(settings, self->choice, self->kinds(), device.gpu().properties().isCpu);
   if (!self->rest.edgeFactors.empty()) self->records.particleRest += sizeof(EdgeFactors);
-  const auto chunks = cutForDevice(device.gpu(), counts, self->records, settings, choice);
+  auto chunks = cutForDevice(device.gpu(), particleCounts(self->rest), self->records, settings, choice);
   if (!chunks) return chunks.error();
-  const auto rangesFor = [&](bool amongBodies) -> Result<std::vector<StrandRange>> {
-    const auto ranges = rangesOf(std::span(counts).first(hereCount(self->rest)),
-                                 self->halo ? self->halo->borderCount : 0, self->rest.wholeCounts, *limits,
-                                 choice, strandWork(settings, material, self->kinds(), amongBodies));
-    if (!ranges) return ranges.error();
-    return cutRanges(*ranges, *chunks);
-  };
-  auto ranges = rangesFor(hasBodies);
-  if (!ranges) return ranges.error();
-  self->ranges = std::move(*ranges);
-  if (hasBodies && self->kinds().volume && !self->kinds().pairs) {
-    auto first = rangesFor(false);
-    if (!first) return first.error();
-    self->firstRanges = std::move(*first);
-  }
-  if (choice.heads > 1 && chunks->size() == 1 && isByItself(settings, self->choice, bodies)) {
-    auto places = HeadPlaces::create(device.gpu(), chunks->front(), self->records, choice.heads);
+  self->chunks = std::move(*chunks);
+  if (choice.heads > 1 && self->chunks.size() == 1 && isByItself(settings, self->choice)) {
+    auto places = HeadPlaces::create(device.gpu(), self->chunks.front(), self->records, choice.heads);
     if (!places) return places.error();
     self->places = std::move(*places);
   }
-  const std::uint64_t lanes = lanesOf(self->ranges);
-  self->groupSize = strandGroupSize(*limits, self->places ? lanes * self->places->headsOfRow() : lanes);
-  if (choice.groupSize != 0) {
-    const auto asked = askedGroupSize(*limits, choice.groupSize);
-    if (!asked) return asked.error();
-    self->groupSize = *asked;
-  }
-  const auto plan = planFrame(self->ranges, *limits, settings, hasBodies ? 1 : 0, self->groupSize);
-  if (!plan) return plan.error();  // before anything else is made
-  self->framePlaces = FramePlaces::of(self->rest);
-  for (const GroomChunk& chunk : *chunks) {
-    auto constants = ConstantChunk::create(device.gpu(), self->rest.strands, self->rest.particles,
-                                           self->rest.edgeFactors, chunk);
-    if (!constants) return constants.error();
-    if (!device.gpu().properties().isCpu) {
-      auto places = self->framePlaces.onDevice(device.gpu(), chunk);
-      if (!places) return places.error();
-      constants->framePlaces = std::move(*places);
-    }
-    self->constants.push_back(std::move(*constants));
-  }
+  if (const auto plan = self->plan(self->choice.features); !plan)
+    return plan.error();  // before what is large
+  if (Status status = self->makeConstants(); !status) return status.error();
   self->rest.particles = {};  // they are on the device
   return HairAsset(std::move(self));
+}
+
+Status HairAsset::Implementation::makeConstants() {
+  framePlaces = FramePlaces::of(rest);
+  for (const GroomChunk& chunk : chunks) {
+    auto made = ConstantChunk::create(device.gpu(), rest.strands, rest.particles, rest.edgeFactors, chunk);
+    if (!made) return made.error();
+    if (!device.gpu().properties().isCpu) {
+      auto onDevice = framePlaces.onDevice(device.gpu(), chunk);
+      if (!onDevice) return onDevice.error();
+      made->framePlaces = std::move(*onDevice);
+    }
+    constants.push_back(std::move(*made));
+  }
+  return {};
+}
+
+Result<std::shared_ptr<const FeaturePlan>> HairAsset::Implementation::plan(const Features& features) const {
+  const std::lock_guard lock(plans->guard);
+  std::shared_ptr<const FeaturePlan>& made = plans->made[features];
+  if (made) return made;
+  auto plan = makePlan(features);
+  if (!plan) return plan.error();
+  made = std::make_shared<const FeaturePlan>(std::move(*plan));
+  return made;
+}
+
+Result<FeaturePlan> HairAsset::Implementation::makePlan(const Features& features) const {
+  if (Status status = checkFeatures(features, settings); !status) return status.error();
+  FeaturePlan plan{features};
+  const std::vector<std::uint32_t> counts = particleCounts(rest);
+  const auto rangesFor = [&](bool amongBodies) -> Result<std::vector<StrandRange>> {
+    const auto ranges =
+        rangesOf(std::span(counts).first(hereCount(rest)), halo ? halo->borderCount : 0, rest.wholeCounts,
+                 limits, choice, strandWork(settings, material, kinds(), amongBodies));
+    if (!ranges) return ranges.error();
+    return cutRanges(*ranges, chunks);
+  };
+  auto ranges = rangesFor(features.bodies);
+  if (!ranges) return ranges.error();
+  plan.ranges = std::move(*ranges);
+  if (features.bodies && kinds().volume && !kinds().pairs) {
+    auto first = rangesFor(false);
+    if (!first) return first.error();
+    plan.firstRanges = std::move(*first);
+  }
+  const std::uint64_t lanes = lanesOf(plan.ranges);
+  const bool areMany = places && !features.any();
+  plan.groupSize = strandGroupSize(limits, areMany ? lanes * places->headsOfRow() : lanes);
+  if (choice.groupSize != 0) {
+    const auto asked = askedGroupSize(limits, choice.groupSize);
+    if (!asked) return asked.error();
+    plan.groupSize = *asked;
+  }
+  const auto frame = planFrame(plan.ranges, limits, settings, features.bodies ? 1 : 0, plan.groupSize);
+  if (!frame) return frame.error();
+  if (!features.goals) return plan;
+  if (!rest.particles.empty()) {
+    plan.goalUnits = goalUnits(rest.strands, rest.particles, settings.goal.shape);
+    return plan;
+  }
+  const auto particles = particlesOf(constants);
+  if (!particles) return particles.error();
+  plan.goalUnits = goalUnits(rest.strands, *particles, settings.goal.shape);
+  return plan;
+}
+
+InputSource HairAsset::Implementation::inputSource(const FeaturePlan& plan, const InitialState& initial,
+                                                   const std::optional<HeadPlace>& place) const {
+  return {.device = device.gpu(),
+          .rest = rest,
+          .settings = settings,
+          .features = plan.features,
+          .chunks = chunks,
+          .goal = goal ? &*goal : nullptr,
+          .goalUnits = plan.goalUnits,
+          .initial = initial,
+          .place = place,
+          .slots = Simulation::kFramesInFlight};
 }
 
 std::size_t HairAsset::strandCount() const { return self_->rest.groomStrandCount; }

@@ -18,9 +18,6 @@
 
 namespace ringlet {
 
-/// Whether the hair may collide with bodies. Kernels with bodies are slower and take longer to compile.
-enum class BodyUse { none, some };
-
 /// A handle: copies refer to the same asset, which lives as long as any copy or any simulation of it. It is
 /// constant, so any thread may use it.
 class HairAsset {
@@ -29,8 +26,7 @@ class HairAsset {
   /// non-finite points, and when the device lacks memory. Cost: some passes over the groom in double, and
   /// with contacts a search for pairs of strands; 36 bytes a particle and 112 a strand of device memory.
   static Result<HairAsset> build(const ComputeDevice& device, const Groom& groom, const Material& material,
-                                 const Settings& settings, const KernelChoice& kernel = {},
-                                 BodyUse bodies = BodyUse::none);
+                                 const Settings& settings, const KernelChoice& kernel = {});
 
   /// Numbers of the groom.
   std::size_t strandCount() const;

@@ -18,19 +18,23 @@ namespace ringlet {
 // For whoever records frames of several heads.
 class HairFrames {
  public:
-  static gpu::Device& device(std::span<const HairFrame> frames) { return of(frames.front()).device.gpu(); }
+  static gpu::Device& device(std::span<const HairFrame> frames) { return of(frames.front()).device().gpu(); }
   static Status record(std::span<const HairFrame> frames, gpu::CommandList& list);
   static bool areFree(std::span<const HairFrame> frames) {
-    return std::ranges::all_of(frames, [](const HairFrame& f) { return of(f).submitted == of(f).finished; });
+    return std::ranges::all_of(
+        frames, [](const HairFrame& f) { return of(f).frames.submitted == of(f).frames.finished; });
   }
   static void lose(std::span<const HairFrame> frames, const Error& why) {
-    for (const HairFrame& frame : frames) of(frame).lostFrame = why;
+    for (const HairFrame& frame : frames) of(frame).frames.lost = why;
   }
+
+  static Status isOver(Simulation& hair);
 
  private:
   static std::vector<HairFrame> inRows(std::span<const HairFrame> frames);
   static Status recordAll(std::span<const HairFrame> frames, gpu::CommandList& list);
-  static Simulation::Implementation& of(const HairFrame& frame) { return *frame.hair->self_; }
+  static Simulation::Implementation& of(const Simulation& hair) { return *hair.self_; }
+  static Simulation::Implementation& of(const HairFrame& frame) { return of(*frame.hair); }
 };
 
 // Those that stand in a row come in its order, so that a dispatch can step several.
@@ -49,8 +53,9 @@ Status HairFrames::record(std::span<const HairFrame> frames, gpu::CommandList& l
   for (const HairFrame& frame : frames) heads.insert(frame.hair);
   RINGLET_ASSERT(heads.size() == frames.size(), "a head stands twice in one recording");
   for (const HairFrame& frame : frames) {
-    RINGLET_ASSERT(&of(frame).device.gpu() == &device(frames), "heads of several devices in one recording");
+    RINGLET_ASSERT(&of(frame).device().gpu() == &device(frames), "heads of several devices in one recording");
     if (Status status = of(frame).checkFree(frame); !status) return status;
+    if (Status status = of(frame).prepare({.roots = !frame.rootPoses.empty()}); !status) return status;
   }
   Status recorded = recordAll(inRows(frames), list);
   if (!recorded) lose(frames, recorded.error());
@@ -80,12 +85,12 @@ Status HairFrames::recordAll(std::span<const HairFrame> frames, gpu::CommandList
 
 // Whether a frame can be recorded now.
 Status Simulation::Implementation::checkFree(const HairFrame& frame) const {
-  if (lostFrame) return *lostFrame;
-  if (Status status = device.checkProcess(); !status) return status;
-  if (divided)
+  if (frames.lost) return *frames.lost;
+  if (Status status = device().checkProcess(); !status) return status;
+  if (contacts.divided)
     return Error{"a frame of hair that other devices share is several submissions: step it by itself"};
-  const std::uint64_t open = submitted - finished;
-  const bool isAlone = contacts || isJump(frame.stepPoses);
+  const std::uint64_t open = frames.submitted - frames.finished;
+  const bool isAlone = contacts.pairs || isJump(frame.stepPoses);
   if (open == 0 || (!isAlone && open < kFramesInFlight)) return {};
   return Error{
       isAlone
@@ -97,9 +102,9 @@ Status Simulation::Implementation::checkFree(const HairFrame& frame) const {
 
 std::size_t Simulation::Implementation::mostHeadsOfDispatch() const {
   std::uint32_t groups = 1;
-  for (const StrandRange& range : ranges) {
+  for (const StrandRange& range : featurePlan->ranges) {
     const PlannedDispatch whole{.strandBegin = range.begin, .strandEnd = range.end};
-    groups = std::max(groups, groupCountOf(whole, range.shape, asset->groupSize));
+    groups = std::max(groups, groupCountOf(whole, range.shape, featurePlan->groupSize));
   }
   return std::max(1u, asset->limits.maxGroupCount / groups);
 }
@@ -108,23 +113,21 @@ std::size_t Simulation::Implementation::mostHeadsOfDispatch() const {
 // one.
 bool Simulation::Implementation::goesWith(const Implementation& before) const {
   const auto isOfRow = [](const Implementation& one) {
-    return one.strandKernels.areOfHeads && one.buffers.sharesConstants() && !one.stillness.sleeps();
+    return one.kernels.strands.areOfHeads && one.buffers.sharesConstants() && !one.stillness.sleeps();
   };
   if (asset != before.asset || !isOfRow(*this) || !isOfRow(before)) return false;
   const HeadPlace &here = *buffers.place, &there = *before.buffers.place;
   if (&here.row() != &there.row() || here.number() != there.number() + 1) return false;
-  // What the host says of a step, and how a frame is planned by it.
-  const auto said = [](const Implementation& one) { return one.parametersOf(one.strandKernels, {}); };
-  const layout::StepParameters own = said(*this), others = said(before);
+  const layout::HairNumbers own = numbers(), others = before.numbers();
   return std::ranges::equal(std::as_bytes(std::span(&own, 1)), std::as_bytes(std::span(&others, 1)));
 }
 
 // Beside what the list has of other heads. The submission's length is the host's. `heads`: as FrameRecording
 // has them.
 Status Simulation::Implementation::recordBeside(gpu::CommandList& list, bool works, std::uint32_t heads) {
-  const std::size_t slot = submitted++ % kFramesInFlight;
+  const std::size_t slot = frames.submitted++ % kFramesInFlight;
   if (!works) {
-    waited = ++finished;
+    frames.waited = ++frames.finished;
     return {};
   }
   SubmissionPace unbounded(0);
@@ -132,25 +135,27 @@ Status Simulation::Implementation::recordBeside(gpu::CommandList& list, bool wor
   if (Status status = bindHeads(heads); !status) return status;
   list.beside();
   if (Status status = recordFrame(recording); !status) return status;
-  slots[slot].isHosts = true;
+  frames.slots[slot].isHosts = true;
   return {};
 }
 
-Status Simulation::frameIsOver() {
-  Implementation& self = *self_;
-  if (self.lostFrame) return *self.lostFrame;
-  const auto isHosts = [&](std::uint64_t frame) { return self.slotOf(frame).isHosts; };
-  std::uint64_t oldest = self.finished;
-  while (oldest < self.submitted && !isHosts(oldest)) ++oldest;
-  if (oldest == self.submitted) return {};
+Status HairFrames::isOver(Simulation& hair) {
+  Simulation::Implementation& self = of(hair);
+  if (self.frames.lost) return *self.frames.lost;
+  const auto isHosts = [&](std::uint64_t frame) { return self.frames.slotOf(frame).isHosts; };
+  std::uint64_t oldest = self.frames.finished;
+  while (oldest < self.frames.submitted && !isHosts(oldest)) ++oldest;
+  if (oldest == self.frames.submitted) return {};
   if (Status status = self.finishFrames(oldest); !status) return status;
-  if (Status status = self.runToEnd(oldest % kFramesInFlight); !status) {
-    self.lostFrame = status.error();
+  if (Status status = self.runToEnd(oldest % Simulation::kFramesInFlight); !status) {
+    self.frames.lost = status.error();
     return status;
   }
-  self.waited = ++self.finished;
+  self.frames.waited = ++self.frames.finished;
   return {};
 }
+
+Status frameIsOver(Simulation& hair) { return HairFrames::isOver(hair); }
 
 Status stepFrames(std::span<const HairFrame> frames) {
   if (frames.empty()) return {};
@@ -164,7 +169,7 @@ Status stepFrames(std::span<const HairFrame> frames) {
     return status;
   }
   for (const HairFrame& frame : frames) {
-    if (Status status = frame.hair->frameIsOver(); !status) {
+    if (Status status = frameIsOver(*frame.hair); !status) {
       HairFrames::lose(frames, status.error());
       return status;
     }

@@ -32,10 +32,16 @@ Status stepFrames(std::span<const HairFrame> frames);
 /// a queue of the device's family. The commands begin and end with a barrier between compute, copies and, at
 /// the end, the host; commands of the host that read DevicePositions need a barrier from compute writes to
 /// their reads. The host submits the command buffer once, before any frame of these heads that is recorded
-/// later. When the device has finished it, the host calls Simulation::frameIsOver of each head. Until then
+/// later. When the device has finished it, the host calls frameIsOver of each head. Until then
 /// the host may only record further frames of a head: at most Simulation::kFramesInFlight may be recorded and
 /// not over, and with contacts, or where the head jumps (Settings::teleportDistance), one. Fails, before
 /// anything is recorded, where this is violated. Cost: microseconds for each dispatch.
 Status recordFrames(std::span<const HairFrame> frames, void* commandBuffer);
+
+/// To be called when the oldest frame of this head that recordFrames put into a host's command buffer is
+/// done, and the host's commands that read it too; framePositions then returns it, as after waitFrame.
+/// Without such a frame it does nothing. Where contact lists had no room for the frame, which happens in the
+/// first frames of a run, it submits the rest of the frame to the device's queue and waits.
+Status frameIsOver(Simulation& hair);
 
 }  // namespace ringlet

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "ringlet/solver/features.h"
 #include "ringlet/solver/strand_shape.h"
 
 namespace ringlet {
@@ -52,12 +53,9 @@ struct KernelChoice {
   const WholeRest* rest = nullptr;
   CompileObserver* observer = nullptr;  // must live as long as simulations are created with this
   bool residual = false;  // measure the velocity solve's residual (SimulationReport), a few per cent slower
-  bool movingRoots = false;  // strands have root poses (Simulation::stepFrame)
-  bool forces = false;       // external forces on particles (Simulation::setForces)
-  bool goals = false;        // places that particles are pulled to (Simulation::setGoals)
-  bool fields = false;       // fields of force and moving air (Simulation::setFields)
-  bool taps = false;         // write every intermediate of the last step (Simulation::tap); slower, for tests
-                             // (RINGLET_BUILD_TAPS)
+  Features features{};    // that simulations begin with; others are added when they are first used
+  bool taps = false;      // write every intermediate of the last step (Diagnostics::tap); slower, for tests
+                          // (RINGLET_BUILD_TAPS)
   // Approximate longest device time of a submission [s]: a desktop resets a device that works too long. 0:
   // 0.3, and no limit on a CPU device.
   double longestSubmissionSeconds = 0;

@@ -92,36 +92,14 @@ struct ContactReport {
   std::vector<std::string> warnings() const;
 };
 
-/// Sizes of a simulation's buffers in bytes (docs/memory.md).
-struct BufferContent {
-  std::string name;
-  std::vector<std::byte> bytes;
-};
-
-struct DeviceMemory {
-  std::uint64_t particles = 0;     // state, rest, taps, contact terms of a solve
-  std::uint64_t strands = 0;       // constants, reports
-  std::uint64_t rootPoses = 0;     // of strands that have poses of their own
-  std::uint64_t contacts = 0;      // contact particles, their grid, pairs of strands that may touch
-  std::uint64_t contactLists = 0;  // at their present length
-  std::uint64_t volume = 0;        // of strands that meet as a volume: particles, grid
-  std::uint64_t world = 0;         // the head's poses, bodies with their grids, air
-  std::uint64_t frames = 0;        // in flight, in the host's memory: positions read back, poses, air
-  std::uint64_t shared = 0;        // of particles and strands: held once for all simulations of an asset
-
-  std::uint64_t total() const {
-    return particles + strands + rootPoses + contacts + contactLists + volume + world + frames;
-  }
-};
-
 /// A head before its first frame. Members left out mean no motion. The spans are read until create returns.
 struct InitialState {
   HeadPose head{};
   std::optional<HeadPose> oneStepEarlier{};  // one outer step before; the hair moves with the head
   std::span<const Body> bodies{};            // solids (Integrator::jacobi only)
   std::span<const BodyPose> bodyPlaces{};    // their poses; without, their poses at t = 0
-  // With KernelChoice::movingRoots: poses of the strands (Simulation::stepFrame), now and one outer step
-  // before, in groom order; BodyPose{} where left out. The hair starts at rest relative to them.
+  // Poses of the strands (Simulation::stepFrame), now and one outer step before, in groom order; BodyPose{}
+  // where left out. The hair starts at rest relative to them.
   std::span<const BodyPose> roots{}, rootsEarlier{};
   // Displacement of each strand's root (groom order) relative to the head when the head's pose has `shift` 1,
   // in the groom's axes [m]. For scenes that press hair together that is apart at rest.
@@ -155,42 +133,18 @@ struct DevicePositions {
 inline constexpr const char* kForeignCheckpoint =
     "the checkpoint is not of this simulation: it holds another number of bytes";
 
-/// A pair of contact particles in a list, by groom order. With the time taper: its present shares of
-/// stiffness and damping (ContactSettings). With the distance taper: stiffness 1 where its spring acts in the
-/// last iterate, damping 1 where the pair is near enough for spring or damper.
-struct ListedContact {
-  std::uint32_t a = 0, b = 0;  // a < b
-  float stiffnessShare = 0, dampingShare = 0;
-};
-
-/// Stage of the copy of positions to the host, which is no stepping.
-inline constexpr const char* kCopyStage = "copy_out";
-
-/// What a frame spent on one dispatch, or one copy.
-struct StageSpan {
-  std::string stage;
-  double begin = 0;  // on the device's clock, from any zero; without timestamps from the submission on [ms]
-  double milliseconds = 0;  // as stageMilliseconds counts them
-};
-
-/// What the host spent on the device [ms].
-struct HostMilliseconds {
-  double submit = 0;  // handing frames to it, and recording them where they are new
-  double fence = 0;   // standing at its fences
-};
-
 /// Threads: one at a time; simulations of one device or asset may run on different threads.
 ///
 /// Strands that float32 cannot hold, and a few that would need far more steps than the others, are carried
 /// rigidly by their roots, in their rest shape (rest/rigid_strands.h); warnings() names them. They have
 /// positions and velocities like other strands, and their places in groom order. Only their roots move them:
-/// no body, no contact, not setState. SimulationReport does not count their edges, ContactReport and
-/// listedContacts do not count their particles, and their taps are 0.
+/// no body, no contact, not setState. SimulationReport does not count their edges, ContactReport does not
+/// count their particles.
 class Simulation {
  public:
-  /// The hair of an asset on one head. Fails, with advice, on invalid bodies, on bodies for which the asset
-  /// was not built, and when the device lacks memory. Cost: the hair's state in device memory;
-  /// kernels are compiled with the first simulation that needs them on a device.
+  /// The hair of an asset on one head. Fails, with advice, on invalid bodies and when the device lacks
+  /// memory. Cost: the hair's state in device memory; kernels are compiled with the first simulation that
+  /// needs them on a device.
   static Result<Simulation> create(const HairAsset& asset, const InitialState& initial = {});
 
   /// The same with an asset of its own. Also fails where HairAsset::build fails.
@@ -204,8 +158,8 @@ class Simulation {
   /// One frame: settings.stepsPerFrame outer steps; stepPoses[k] is the head's pose at the end of step k.
   /// Where the head jumps (Settings::teleportDistance) hair is carried along, and does not move relative to
   /// the head in this frame; afterwards it continues its motion. bodyPoses: as bodyPosesOf returns them for
-  /// these steps; without them the head carries all bodies. rootPoses[step * strands + strand], groom order,
-  /// with KernelChoice::movingRoots: each strand's pose in the head's frame at the end of each step, which
+  /// these steps; without them the head carries all bodies. rootPoses[step * strands + strand], groom order:
+  /// each strand's pose in the head's frame at the end of each step, which
   /// moves its root particles and its root frame; without them roots stay in place on the head.
   ///   x_world = head.position + rotate(head.rotation, root.position + rotate(root.rotation, x_groom))
   Status stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses = {},
@@ -226,13 +180,6 @@ class Simulation {
   void framePositions(std::span<Vec3f> all) const;
   /// The same in place, without a copy, for as long; not of divided hair.
   std::span<const Vec3f> frameView() const;
-
-  /// To be called when the oldest frame that recordFrames (hair_frames.h) put into a host's command buffer is
-  /// done, and the host's commands that read it too; framePositions then returns it, as after waitFrame.
-  /// Without such a frame it does nothing. Where contact lists had no room for the frame, which happens in
-  /// the first frames of a run, it submits the rest of the frame to the device's queue and waits.
-  Status frameIsOver();
-
   /// stepFrame with poses interpolated from the last one to `end`.
   Status stepFrame(const HeadPose& end);
 
@@ -277,9 +224,8 @@ class Simulation {
   /// Sets external accelerations of all particles, in groom order [m/s^2], along world axes; they are added
   /// to gravity; each number is from -1e6 to 1e6. They act in every step of frames submitted from now on,
   /// until others are set; initially they are 0. The solve treats them explicitly: a force that pulls towards
-  /// a place must not be stiffer than about 1/T^2 a metre, T being the step. Fails where the asset was built
-  /// without KernelChoice::forces. Cost: 16 bytes a particle to write, and to copy in each frame; 68 bytes of
-  /// memory.
+  /// a place must not be stiffer than about 1/T^2 a metre, T being the step. Cost: 16 bytes a particle to
+  /// write, and to copy in each frame; 68 bytes of memory.
   Status setForces(std::span<const Vec3f> forces);
   /// Pulls particles to places: `places` in groom order, in the groom's axes [m] (the groom itself is its
   /// rest pose), each number from -1e6 to 1e6, carried by the head and by root poses as roots are. Each is
@@ -287,7 +233,7 @@ class Simulation {
   /// there, and held until others are set. `strengths` of every particle, 0 to 1e7: a goal of strength 1
   /// holds the particle's own weight 1 cm away; initially they are 0. `dampingRatio`, 0 to 1000: of the
   /// particle's motion about its place, critical at 1. The solve treats goals implicitly, so that any
-  /// strength is stable. Fails where the asset was built without KernelChoice::goals. Cost: 32 bytes a
+  /// strength is stable. Cost: 32 bytes a
   /// particle to write, and to copy in each frame; 136 of memory. The strand kernel is that of bodies and
   /// air.
   Status setGoals(std::span<const Vec3f> places, std::span<const float> strengths, double dampingRatio = 1,
@@ -296,10 +242,15 @@ class Simulation {
   /// on until others are set. `from`: as they are at its start, from where they change evenly; without, they
   /// do not change. The solve takes drag implicitly, so that any is stable, and accelerations explicitly: one
   /// that pulls towards a place must not grow by more than about 1/T^2 a metre, T being the step. Fails,
-  /// without a change, where the asset was built without KernelChoice::fields, on a number out of range and
+  /// without a change, on a number out of range and
   /// on more than kMostForceFields. Cost: the strand kernel is that of bodies and air; another number of
   /// fields or other grids wait for frames in flight.
   Status setFields(std::span<const ForceField> fields, std::span<const ForceField> from = {});
+  /// Adds features to those that this hair uses, as their first use does: waits for frames in flight,
+  /// compiles kernels, seconds on some drivers, and makes buffers. For hosts that want that at a time of
+  /// their own. Fails, without a change, where the settings have none of these features; and where the device
+  /// lacks memory: then the hair is lost.
+  Status prepare(const Features& features);
   /// Cuts strands, from the next frame on. What is kept stays as it was, with the same rest state; the edge
   /// at the cut is no more, and what is cut off falls: bodies, air, fields and other hair that meets pair by
   /// pair act on it, and no head and no goal. It keeps its places in groom order. A strand may be cut again,
@@ -317,40 +268,13 @@ class Simulation {
   const HeadPose& head() const;
   Result<SimulationReport> report() const;
   Result<ContactReport> contactReport() const;
-  /// The pairs of particles in the lists (groom order, a < b, sorted), for tests. Empty without contacts.
-  Result<std::vector<ListedContact>> listedContacts() const;
-  /// Number of strands that are carried rigidly.
-  std::size_t rigidStrandCount() const;
   /// Warnings for the user (a core spring capped for this step, gravity preload too large, strands carried
   /// rigidly), a sentence each.
   const std::vector<std::string>& warnings() const;
-  /// Milliseconds spent on the device, by stage, summed over all frames waited for; by GPU timestamps where
-  /// the device has them, and then with kCopyStage.
-  std::map<std::string, double> stageMilliseconds() const;
-  /// The dispatches of the frame waited for last, in order; whenever framePositions may be asked.
-  std::vector<StageSpan> frameStages() const;
-  /// What the host spent on the device, summed likewise.
-  HostMilliseconds hostMilliseconds() const;
-  /// Present sizes; a frame in flight may still enlarge contact lists. The driver may need a little more for
-  /// each of some dozen buffers.
-  DeviceMemory memory() const;
-  /// One intermediate of the last step in groom order, four floats a particle (an edge's at its particle i);
-  /// `field` is one of layout/strands.h's kTap... Needs KernelChoice::taps.
-  Result<std::vector<std::array<float, 4>>> tap(std::uint32_t field) const;
-  /// Time to make the kernels, mostly the driver's compiler [ms]. It is part of create. A device compiles
-  /// each kernel once for all its simulations.
-  double compileMilliseconds() const;
-  /// What the device holds in each buffer that the hair's kernels see and that is not empty, for those who
-  /// look for a fault; a buffer of the groom's second chunk is called NAME_1, and so on. Layouts:
-  /// shaders/shared and shaders/layout.
-  Result<std::vector<BufferContent>> bufferContents() const;
-  /// The recording of the last frame submitted, or of the first one, for tests (Recorder::recorded).
-  std::vector<std::string> recordedFrame() const;
-  /// The kernel variants in use, e.g. "lanes 4 x 16 (subgroup 8)".
-  std::string kernelDescription() const;
 
  private:
   friend class HairFrames;
+  friend class Diagnostics;
   struct Implementation;
   explicit Simulation(std::unique_ptr<Implementation>);
   std::unique_ptr<Implementation> self_;

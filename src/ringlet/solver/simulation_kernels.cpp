@@ -1,4 +1,5 @@
-// Implements the strand kernels of solver/simulation.h: their choice, creation and bindings.
+// Implements the strand kernels of solver/simulation.h: their choice, creation and bindings; and the features
+// that they know.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -53,36 +54,36 @@ class CompileNotice {
 }  // namespace
 
 StrandKernelOptions Simulation::Implementation::kernelOptions() const {
-  const bool profiles = !rest.edgeFactors.empty();
+  const bool profiles = !rest().edgeFactors.empty();
   const bool bendVaries =
       profiles || (!material.bendStiffnessProfile.points.empty() && settings.integrator != Integrator::paper);
-  const bool fitsTexels = isSeenAsTexels(
-      device.gpu(), std::max({buffers.largestTexels(), world.largestBuffer(), roots.largestBuffer(),
-                              forces.largestBuffer(), goals.largestBuffer(), fields.largestBuffer()}));
+  const Features& uses = featurePlan->features;
+  std::uint64_t largest = buffers.largestTexels();
+  for (const FrameInput* input : inputs.each()) largest = std::max(largest, input->largestBuffer());
   return {.integrator = settings.integrator,
-          .oneSmoothing = rest.oneSmoothing,
+          .oneSmoothing = rest().oneSmoothing,
           .bendVaries = bendVaries,
           .profiles = profiles,
-          .taps = choice.taps,
+          .taps = asset->choice.taps,
           .contacts = settings.contacts.on,
-          .pairs = contacts.has_value(),
-          .volume = volume.has_value(),
-          .texels = fitsTexels,
-          .residual = choice.residual,
-          .bodies = asset->bodies == BodyUse::some,
+          .pairs = contacts.pairs.has_value(),
+          .volume = contacts.volume.has_value(),
+          .texels = isSeenAsTexels(device().gpu(), largest),
+          .residual = asset->choice.residual,
+          .bodies = uses.bodies,
           .air = settings.air.on,
-          .turbulence = world.isTurbulent(),
-          .movingRoots = choice.movingRoots,
-          .forces = choice.forces,
-          .goals = choice.goals,
+          .turbulence = inputs.get<AirInput>().isTurbulent(),
+          .movingRoots = uses.roots,
+          .forces = uses.forces,
+          .goals = uses.goals,
           .goalShape = settings.goal.shape,
-          .fields = choice.fields,
-          .heads = buffers.place.has_value(),
-          .subgroupSize = askedWidth(device.gpu().properties(), choice),
-          .groupSize = asset->groupSize};
+          .fields = uses.fields,
+          .heads = buffers.place.has_value() && !uses.any(),
+          .subgroupSize = askedWidth(device().gpu().properties(), asset->choice),
+          .groupSize = featurePlan->groupSize};
 }
 
-// Of what was cut off: no root carries it, and it is pulled to no place and no part of the volume.
+// Of what was cut off: no root carries it, and it is pulled to no place and no part of the contacts.volume.
 StrandKernelOptions Simulation::Implementation::fallenOptions() const {
   StrandKernelOptions options = kernelOptions();
   options.falls = true;
@@ -93,25 +94,26 @@ StrandKernelOptions Simulation::Implementation::fallenOptions() const {
 // The shapes whose kernels no earlier simulation has made on this device.
 std::vector<std::size_t> Simulation::Implementation::newKernels(const StrandKernels& of,
                                                                 const StrandKernelOptions& options) const {
-  const std::vector<StrandShape> shapes = shapesOf(of.ranges);
+  const std::vector<StrandShape> shapes = shapesOf(*of.ranges);
   std::vector<std::size_t> found;
   for (std::size_t k = 0; k < shapes.size(); ++k) {
-    if (!gpu::Kernel::isCompiled(device.gpu(), describeStrandKernel(shapes[k], options))) found.push_back(k);
+    if (!gpu::Kernel::isCompiled(device().gpu(), describeStrandKernel(shapes[k], options)))
+      found.push_back(k);
   }
   return found;
 }
 
 // Compiles several kernels at a time.
 Status Simulation::Implementation::create(StrandKernels& of, const StrandKernelOptions& options) const {
-  if (of.ranges.empty()) return {};
-  const std::vector<StrandShape> shapes = shapesOf(of.ranges);
-  auto made = createStrandKernels(device.gpu(), shapes, options);
+  if (of.ranges->empty()) return {};
+  const std::vector<StrandShape> shapes = shapesOf(*of.ranges);
+  auto made = createStrandKernels(device().gpu(), shapes, options);
   if (!made) return made.error();
   of.kernels = std::move(*made);
   of.areOfHeads = options.heads;
   of.areFallen = options.falls;
   of.kernelOf.clear();
-  for (const StrandRange& range : of.ranges)
+  for (const StrandRange& range : *of.ranges)
     of.kernelOf.push_back(static_cast<std::size_t>(std::ranges::find(shapes, range.shape) - shapes.begin()));
   return {};
 }
@@ -119,62 +121,83 @@ Status Simulation::Implementation::create(StrandKernels& of, const StrandKernelO
 // Makes the kernels and compiles them by an empty dispatch, since some drivers compile only then. Kernels
 // that an earlier simulation has made on this device are ready.
 Status Simulation::Implementation::makeKernels() {
-  if (ranges.empty()) return {};
+  if (featurePlan->ranges.empty()) return {};
   const auto start = std::chrono::steady_clock::now();
   const StrandKernelOptions options = kernelOptions();
   StrandKernelOptions ofFirstSolve = options;
   ofFirstSolve.bodies = false;
-  const std::vector<std::size_t> newOnes = newKernels(strandKernels, options);
-  const std::vector<std::size_t> newFirst = newKernels(firstSolveKernels, ofFirstSolve);
+  const std::vector<std::size_t> newOnes = newKernels(kernels.strands, options);
+  const std::vector<std::size_t> newFirst = newKernels(kernels.firstSolve, ofFirstSolve);
   const std::size_t newCount = newOnes.size() + newFirst.size() +
-                               (contacts ? contacts->newKernelCount() : 0) +
-                               (volume ? volume->newKernelCount() : 0);
-  const CompileNotice notice(choice.observer, newCount);
-  if (Status status = create(strandKernels, options); !status) return status;
-  if (Status status = create(firstSolveKernels, ofFirstSolve); !status) return status;
+                               (contacts.pairs ? contacts.pairs->newKernelCount() : 0) +
+                               (contacts.volume ? contacts.volume->newKernelCount() : 0);
+  const CompileNotice notice(asset->choice.observer, newCount);
+  if (Status status = create(kernels.strands, options); !status) return status;
+  if (Status status = create(kernels.firstSolve, ofFirstSolve); !status) return status;
+  if (Status status = create(kernels.fallen, fallenOptions()); !status) return status;
   if (Status status = bindKernels(); !status) return status;
 
   if (newCount > 0) {
-    auto recorder = gpu::Recorder::create(device.gpu(), "compile");
+    auto recorder = gpu::Recorder::create(device().gpu(), "compile");
     if (!recorder) return recorder.error();
     if (Status status = recorder->begin(); !status) return status;
-    dispatchNothing(*recorder, strandKernels, newOnes);
-    dispatchNothing(*recorder, firstSolveKernels, newFirst);
-    if (contacts) contacts->recordNothing(*recorder);
-    if (volume) volume->recordNothing(*recorder);
+    dispatchNothing(*recorder, kernels.strands, newOnes);
+    dispatchNothing(*recorder, kernels.firstSolve, newFirst);
+    if (contacts.pairs) contacts.pairs->recordNothing(*recorder);
+    if (contacts.volume) contacts.volume->recordNothing(*recorder);
     if (Status status = recorder->submitAndWait(); !status) return status;
   }
-  compileMilliseconds =
+  times.compileMilliseconds +=
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return {};
 }
 
+// Adds features to those that this hair uses.
+Status Simulation::Implementation::prepare(const Features& wanted) {
+  const Features all = featurePlan->features | wanted;
+  if (all == featurePlan->features) return {};
+  auto grown = asset->plan(all);
+  if (!grown) return grown.error();
+  if (Status status = finishFrames(); !status) return status;
+  featurePlan = std::move(*grown);
+  Status status = grow();
+  if (!status) frames.lost = status.error();
+  return status;
+}
+
+// Makes what the plan of features needs and the one before had not.
+Status Simulation::Implementation::grow() {
+  for (FrameInput* input : inputs.each()) {
+    if (Status status = input->prepare(inputSource()); !status) return status;
+  }
+  if (Status status = inputs.get<FallenHair>().reshape(device().gpu(), featurePlan->ranges); !status)
+    return status;
+  kernels.strands.ranges = &featurePlan->ranges;
+  kernels.firstSolve.ranges = &featurePlan->firstRanges;
+  if (Status status = makeKernels(); !status) return status;
+  stillness.wake();
+  frames.forgetRecordings();
+  return fallen().pieces().empty() ? Status{} : renewConstants();
+}
+
 Status Simulation::Implementation::bindKernels() {
-  if (Status status = bindKernels(strandKernels); !status) return status;
-  if (Status status = bindKernels(firstSolveKernels); !status) return status;
-  return bindKernels(fallenKernels);
+  if (Status status = bindKernels(kernels.strands); !status) return status;
+  if (Status status = bindKernels(kernels.firstSolve); !status) return status;
+  return bindKernels(kernels.fallen);
 }
 
 gpu::BufferTable Simulation::Implementation::bufferTable(std::size_t chunk) const {
   gpu::BufferTable table = buffers.bufferTable(chunk);
-  table.merge(world.bufferTable());
-  table.merge(roots.bufferTable(chunk));
-  table.merge(forces.bufferTable(chunk));
-  table.merge(goals.bufferTable(chunk));
-  table.merge(fields.bufferTable());
+  for (const FrameInput* input : inputs.each()) table.merge(input->bufferTable(chunk));
   return table;
 }
 
 Status Simulation::Implementation::bindKernels(StrandKernels& of) {
   of.bindings.clear();
   of.ofHeads.clear();
-  for (std::size_t r = 0; r < of.ranges.size(); ++r) {
-    const std::size_t chunk = of.ranges[r].chunk;
-    gpu::BufferTable table;
-    if (of.areFallen)
-      table = {{layout::kBindStrands, fallenChunks[chunk].strands},
-               {layout::kBindStrandTexels, fallenChunks[chunk].strands},
-               {layout::kBindReports, fallenChunks[chunk].reports}};
+  for (std::size_t r = 0; r < of.ranges->size(); ++r) {
+    const std::size_t chunk = (*of.ranges)[r].chunk;
+    gpu::BufferTable table = of.areFallen ? fallen().pieceTable(chunk) : gpu::BufferTable{};
     table.merge(bufferTable(chunk));
     auto bound = gpu::Bindings::create(*of.kernels[of.kernelOf[r]], table);
     if (!bound) return bound.error();
@@ -184,18 +207,18 @@ Status Simulation::Implementation::bindKernels(StrandKernels& of) {
 }
 
 Status Simulation::Implementation::bindHeads(std::uint32_t heads) {
-  if (heads < 2 || strandKernels.ofHeads.contains(heads)) return {};
+  if (heads < 2 || kernels.strands.ofHeads.contains(heads)) return {};
   auto part = buffers.place->part(heads);
   if (!part) return part.error();
   BoundHeads bound{std::move(*part), {}};
   gpu::BufferTable table = bound.buffers.bufferTable();
   table.merge(bufferTable(0));
-  for (const std::size_t kernel : strandKernels.kernelOf) {
-    auto bindings = gpu::Bindings::create(*strandKernels.kernels[kernel], table);
+  for (const std::size_t kernel : kernels.strands.kernelOf) {
+    auto bindings = gpu::Bindings::create(*kernels.strands.kernels[kernel], table);
     if (!bindings) return bindings.error();
     bound.bindings.push_back(std::move(*bindings));
   }
-  strandKernels.ofHeads.emplace(heads, std::move(bound));
+  kernels.strands.ofHeads.emplace(heads, std::move(bound));
   return {};
 }
 
@@ -207,12 +230,10 @@ void Simulation::Implementation::dispatchNothing(gpu::CommandList& list, const S
   }
 }
 
-double Simulation::compileMilliseconds() const { return self_->compileMilliseconds; }
-
-std::string Simulation::kernelDescription() const {
-  if (self_->ranges.empty()) return "none: all strands are carried rigidly";
-  const auto width = static_cast<std::uint32_t>(self_->choice.subgroupSize);
-  return describe(shapesOf(self_->ranges), width ? width : self_->device.gpu().properties().subgroupSize);
+std::string Simulation::Implementation::describeKernels() const {
+  if (featurePlan->ranges.empty()) return "none: all strands are carried rigidly";
+  const auto width = static_cast<std::uint32_t>(asset->choice.subgroupSize);
+  return describe(shapesOf(featurePlan->ranges), width ? width : device().gpu().properties().subgroupSize);
 }
 
 }  // namespace ringlet

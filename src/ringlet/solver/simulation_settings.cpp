@@ -19,8 +19,8 @@ constexpr double kRounding = 1 + 1e-9;  // between two expressions for one step 
 
 Status Simulation::Implementation::checkChange(const Settings& wanted) const {
   if (Status status = checkSettings(wanted, material); !status) return status;
-  if (!rest.elsewhere.empty() || divided) {
-    if (Status status = checkPart(wanted, choice.link); !status) return status;
+  if (!rest().elsewhere.empty() || contacts.divided) {
+    if (Status status = checkPart(wanted, asset->choice.link); !status) return status;
   }
   const Settings& built = asset->settings;
   if (const std::string fixed = fixedDifference(built, wanted); !fixed.empty()) {
@@ -35,39 +35,35 @@ Status Simulation::Implementation::checkChange(const Settings& wanted) const {
         "longer ones",
         wanted.stepsPerFrame, 1 / wanted.stepSeconds(), built.stepsPerFrame, 1 / built.stepSeconds())};
   }
-  const auto plan = planFrame(ranges, asset->limits, wanted, world.bodyCount(), asset->groupSize);
+  const auto plan =
+      planFrame(featurePlan->ranges, asset->limits, wanted, bodyCount(), featurePlan->groupSize);
   return plan ? Status{} : plan.error();
 }
 
 Status Simulation::Implementation::change(const Settings& wanted) {
-  if (contacts) {
+  if (contacts.kinds().any()) {
     if (Status status = finishFrames(); !status) return status;
-    if (Status status = contacts->setSettings(wanted); !status) return status;
   }
-  if (volume) volume->setSettings(wanted);
-  const double share = wanted.stepSeconds() / settings.stepSeconds();
-  if (share != 1) {
-    secondsBefore = seconds();
-    stepsBefore = stepsDone;
-    head.rescale(share);
-    roots.setStepSeconds(wanted.stepSeconds());
-    rigidHair.rescale(share);
+  if (contacts.pairs) {
+    if (Status status = contacts.pairs->setSettings(wanted); !status) return status;
   }
-  world.setSettings(wanted);
-  if (asset->goal && wanted.goal != settings.goal)
-    goals.set(asset->goal->places, strengthsOf(*asset->goal, wanted.goal), wanted.goal.damping, {});
+  if (contacts.volume) {
+    if (Status status = contacts.volume->setSettings(wanted); !status) return status;
+  }
+  if (wanted.stepSeconds() != settings.stepSeconds()) clock.endLength(settings.stepSeconds());
+  for (FrameInput* input : inputs.each()) input->setSettings(settings, wanted);
   settings = wanted;
   stillness.wake();
-  forgetRecordings();
+  frames.forgetRecordings();
   return {};
 }
 
 Status Simulation::Implementation::change(const Material& wanted) {
   if (Status status = finishFrames(); !status) return status;
-  if (!liveMaterial) {
-    auto made = LiveMaterial::create(rest, asset->material, asset->settings);
+  if (!constants.liveMaterial) {
+    auto made = LiveMaterial::create(rest(), asset->material, asset->settings);
     if (!made) return made.error();
-    liveMaterial = std::move(*made);
+    constants.liveMaterial = std::move(*made);
   }
   const Material before = std::exchange(material, wanted);
   Status status = renewConstants();
@@ -76,25 +72,23 @@ Status Simulation::Implementation::change(const Material& wanted) {
 }
 
 Status Simulation::Implementation::change(std::span<const Body> bodies, std::span<const BodyPose> places) {
-  const auto plan = planFrame(ranges, asset->limits, settings, bodies.size(), asset->groupSize);
+  const auto plan =
+      planFrame(featurePlan->ranges, asset->limits, settings, bodies.size(), featurePlan->groupSize);
   if (!plan) return plan.error();
   if (Status status = finishFrames(); !status) return status;
-  // For the largest number of steps per frame, and the present air.
-  Settings largest = settings;
-  largest.stepsPerFrame = asset->settings.stepsPerFrame;
-  auto made = DeviceWorld::create(device.gpu(), bodies, largest, head.now, kFramesInFlight);
+  auto made = BodiesInput::create(inputSource(), bodies, places, head().now);
   if (!made) return made.error();
-  made->setSettings(settings);
-  if (!places.empty()) made->placeBodies(places);
-  world = std::move(*made);
+  inputs.get<BodiesInput>() = std::move(*made);
   stillness.wake();
-  forgetRecordings();
+  frames.forgetRecordings();
   return bindKernels();
 }
 
 Status Simulation::setBodies(std::span<const Body> bodies, std::span<const BodyPose> places) {
-  RINGLET_ASSERT(places.empty() || places.size() == bodies.size(), "every body has a place");
-  if (self_->asset->bodies == BodyUse::none && !bodies.empty()) return Error{kBuiltWithoutBodies};
+  for (const Body& body : bodies) {
+    if (Status status = checkBody(body); !status) return status;
+  }
+  if (Status status = self_->prepare({.bodies = !bodies.empty()}); !status) return status;
   return self_->change(bodies, places);
 }
 
@@ -120,38 +114,35 @@ Status Simulation::setSettings(const Settings& settings) {
 }
 
 Status Simulation::setForces(std::span<const Vec3f> forces) {
-  RINGLET_ASSERT(forces.size() == self_->rest.groomParticleCount, "every particle has a force");
-  if (!self_->forces.areThere()) {
-    return Error{
-        "the hair's asset was built without forces from outside; build it with KernelChoice::forces"};
-  }
+  RINGLET_ASSERT(forces.size() == self_->rest().groomParticleCount, "every particle has a force");
   if (Status status = checkEach(forces, "force", kOutsideForce, "m/s^2"); !status) return status;
-  self_->forces.set(forces);
+  if (Status status = self_->prepare({.forces = true}); !status) return status;
+  self_->inputs.get<ForcesInput>().set(forces);
   self_->stillness.wake();
   return {};
 }
 
 Status Simulation::setGoals(std::span<const Vec3f> places, std::span<const float> strengths,
                             double dampingRatio, std::span<const Vec3f> from) {
-  RINGLET_ASSERT(places.size() == self_->rest.groomParticleCount && strengths.size() == places.size() &&
+  RINGLET_ASSERT(places.size() == self_->rest().groomParticleCount && strengths.size() == places.size() &&
                      (from.empty() || from.size() == places.size()),
                  "every particle has a place and a strength");
-  if (!self_->goals.areThere())
-    return Error{"the hair's asset was built without goals; build it with KernelChoice::goals"};
   if (Status status = checkGoals(places, strengths, dampingRatio, from); !status) return status;
-  self_->goals.set(places, strengths, dampingRatio, from);
+  if (Status status = self_->prepare({.goals = true}); !status) return status;
+  self_->inputs.get<GoalsInput>().set(places, strengths, dampingRatio, from);
   self_->stillness.wake();
   return {};
 }
 
 Status Simulation::Implementation::change(std::span<const ForceField> from, std::span<const ForceField> to) {
+  FieldsInput& fields = inputs.get<FieldsInput>();
   if (!std::ranges::equal(from, fields.now())) stillness.wake();
   if (!fields.hasRoomFor(to)) {
     if (Status status = finishFrames(); !status) return status;
-    auto made = DeviceFields::create(device.gpu(), to, asset->settings.stepsPerFrame, kFramesInFlight);
+    auto made = FieldsInput::create(inputSource(), to);
     if (!made) return made.error();
     fields = std::move(*made);
-    forgetRecordings();
+    frames.forgetRecordings();
     if (Status status = bindKernels(); !status) return status;
   }
   fields.set(from, to);
@@ -160,15 +151,16 @@ Status Simulation::Implementation::change(std::span<const ForceField> from, std:
 
 Status Simulation::setFields(std::span<const ForceField> fields, std::span<const ForceField> from) {
   RINGLET_ASSERT(from.empty() || from.size() == fields.size(), "every field has a start");
-  if (!self_->choice.fields)
-    return Error{"the hair's asset was built without fields; build it with KernelChoice::fields"};
   for (const std::span<const ForceField> some : {fields, from}) {
     for (const ForceField& field : some) {
       if (Status checked = checkForceField(field); !checked) return checked;
     }
   }
+  if (Status status = self_->prepare({.fields = !fields.empty()}); !status) return status;
   return self_->change(from.empty() ? fields : from, fields);
 }
+
+Status Simulation::prepare(const Features& features) { return self_->prepare(features); }
 
 const Settings& Simulation::settings() const { return self_->settings; }
 const Material& Simulation::material() const { return self_->material; }

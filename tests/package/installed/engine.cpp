@@ -32,6 +32,6 @@ ringlet::Status stepHair(std::vector<Head>& heads, VkCommandBuffer commands) {
 // When the frame's fence has been waited for.
 ringlet::Status endFrame(std::vector<Head>& heads) {
   for (Head& head : heads)
-    if (auto status = head.hair.frameIsOver(); !status) return status;
+    if (auto status = frameIsOver(head.hair); !status) return status;
   return {};
 }

@@ -43,7 +43,7 @@ int main(void) {
   ringlet_groom groom = RINGLET_INIT(ringlet_groom);
   groom.points = points, groom.strand_sizes = sizes, groom.strand_count = kStrands;
   ringlet_asset_options options = RINGLET_INIT(ringlet_asset_options);
-  options.has_bodies = 1, options.warn = warn, options.user = &warnings;
+  options.features = RINGLET_BODIES, options.warn = warn, options.user = &warnings;
   ringlet_asset* asset = NULL;
   check(ringlet_asset_build(device, &groom, settings, material, &options, &asset));
 

@@ -154,9 +154,11 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   if (!guesses) return guesses.error();
   auto sampled = createFilled(device, samples.list, "contacts of samples");
   if (!sampled) return sampled.error();
+  auto numbers = createZero(device, sizeof(layout::ContactNumbers), "contact numbers");
+  if (!numbers) return numbers.error();
   self.buffers_.emplace(Buffers{std::move(*rests), std::move(*neighbours), std::move(*indices),
                                 std::move(*grid), std::move(*places), std::move(*histories),
-                                std::move(*guesses), std::move(*sampled)});
+                                std::move(*guesses), std::move(*sampled), std::move(*numbers)});
   self.near_ = ListRoom{static_cast<std::uint32_t>(count), kFirstMostNearBlocks}.times(room);
   if (self.settings_.taper == ContactTaper::time) {
     auto lives = ContactLives::create(self.listMaker(), room);
@@ -171,7 +173,7 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
 std::uint64_t ContactStage::bytes() const {
   const Buffers& b = *buffers_;
   return b.contacts.bytes() + b.neighbours.bytes() + b.indices.bytes() + b.grid.bytes() + b.places.bytes() +
-         b.histories.bytes() + b.guesses.bytes() + b.sampled.bytes();
+         b.histories.bytes() + b.guesses.bytes() + b.sampled.bytes() + b.numbers.bytes();
 }
 std::uint64_t ContactStage::listBytes() const {
   return lists_[kHeads].bytes() + lists_[kPairs].bytes() + (lives_ ? lives_->bytes() : 0);
@@ -191,6 +193,12 @@ Status ContactStage::writeControl() {
   return groom_->contactControl.upload(std::as_bytes(std::span(&control_, 1)));
 }
 
+// While no kernel reads them.
+Status ContactStage::writeNumbers() {
+  const layout::ContactNumbers now = numbers();
+  return buffers_->numbers.upload(std::as_bytes(std::span(&now, 1)));
+}
+
 // Makes the lists, as large as `near_` says. The old ones are freed first.
 Status ContactStage::createLists() {
   lists_.clear();
@@ -200,7 +208,7 @@ Status ContactStage::createLists() {
   auto made = listMaker().make(parts, near_.most * layout::kListBlock);
   if (!made) return made.error();
   lists_ = std::move(*made);
-  return {};
+  return writeNumbers();
 }
 
 // The lists in the table of bindings.
@@ -217,7 +225,8 @@ Status ContactStage::bindLists() {
 // The table of bindings: buffers as storage, and some of them as texels too.
 gpu::BufferTable ContactStage::bufferTable() const {
   using namespace layout;
-  const auto& [contacts, neighbours, indices, grid, places, histories, guesses, sampled] = *buffers_;
+  const auto& [contacts, neighbours, indices, grid, places, histories, guesses, sampled, ofNumbers] =
+      *buffers_;
   gpu::BufferTable table{{kBindContactPositions, hair().positions},
                          {kBindContactVelocities, hair().velocities},
                          {kBindContactSolved, hair().solved},
@@ -229,6 +238,7 @@ gpu::BufferTable ContactStage::bufferTable() const {
                          {kBindHistories, histories},
                          {kBindGuesses, guesses},
                          {kBindSampled, sampled},
+                         {kBindContactNumbers, ofNumbers},
                          {kBindLists, lists_[kHeads]},
                          {kBindPairs, lists_[kPairs]},
                          {kBindSystems, hair().contactSystems},
@@ -250,35 +260,35 @@ gpu::BufferTable ContactStage::bufferTable() const {
 double ContactStage::skin() const { return kContactMargin * 2 * largestRadius_; }
 double ContactStage::listedAhead() const { return sampleStride_ > 0 ? kDenseAhead : kContactSeenAhead; }
 
-layout::ContactParameters ContactStage::parameters(std::uint32_t step) const {
+layout::ContactNumbers ContactStage::numbers() const {
   const ListRoom live = lives_ ? lives_->room() : ListRoom{};
-  layout::ContactParameters p = packed(settings_, stepSeconds_);
-  p.contactCount = static_cast<std::uint32_t>(particles_.size());
-  p.bucketCount = bucketCount_;
-  p.blockCount = near_.blocks;
-  p.mostBlocks = near_.most;
-  p.liveBlockCount = live.blocks;
-  p.mostLiveBlocks = live.most;
-  p.everyPair = everyPair_ ? 1u : 0u;
-  p.step = step;
-  p.skin = static_cast<float>(skin());
-  p.largestRadius = largestRadius_;
-  p.listedAhead = static_cast<float>(listedAhead());
-  p.sampleStride = sampleStride_;
-  p.mostSampled = mostSampled_;
-  p.cellsPerMetre = static_cast<float>(1 / (1.01 * (listedAhead() * 2 * largestRadius_ + skin())));
-  return p;
+  layout::ContactNumbers n = packed(settings_, stepSeconds_);
+  n.contactCount = static_cast<std::uint32_t>(particles_.size());
+  n.bucketCount = bucketCount_;
+  n.blockCount = near_.blocks;
+  n.mostBlocks = near_.most;
+  n.liveBlockCount = live.blocks;
+  n.mostLiveBlocks = live.most;
+  n.everyPair = everyPair_ ? 1u : 0u;
+  n.skin = static_cast<float>(skin());
+  n.largestRadius = largestRadius_;
+  n.listedAhead = static_cast<float>(listedAhead());
+  n.sampleStride = sampleStride_;
+  n.mostSampled = mostSampled_;
+  n.cellsPerMetre = static_cast<float>(1 / (1.01 * (listedAhead() * 2 * largestRadius_ + skin())));
+  return n;
 }
 
 void ContactStage::dispatch(gpu::CommandList& list, ContactKernel kernel, std::uint32_t step,
                             std::uint32_t groupCount) const {
   const auto at = static_cast<std::size_t>(kernel);
-  list.dispatch(*kernels_[at], bindings_[at], parameters(step), groupCount);
+  list.dispatch(*kernels_[at], bindings_[at], layout::ContactParameters{step, layout::kOfAll}, groupCount);
 }
 void ContactStage::dispatchIndirect(gpu::CommandList& list, ContactKernel kernel, std::uint32_t step,
                                     std::uint64_t offset) const {
   const auto at = static_cast<std::size_t>(kernel);
-  list.dispatchIndirect(*kernels_[at], bindings_[at], parameters(step), groom_->contactControl, offset);
+  list.dispatchIndirect(*kernels_[at], bindings_[at], layout::ContactParameters{step, layout::kOfAll},
+                        groom_->contactControl, offset);
 }
 
 void ContactStage::recordNothing(gpu::CommandList& list) const {
@@ -288,10 +298,9 @@ void ContactStage::recordNothing(gpu::CommandList& list) const {
 void ContactStage::recordMotion(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step,
                                 std::uint32_t whose) const {
   const auto at = static_cast<std::size_t>(ContactKernel::motion);
-  layout::ContactParameters own = parameters(step);
-  own.whose = whose;
   pace.beginStage(list, "contact_motion");
-  list.dispatch(*kernels_[at], bindings_[at], own, std::min(contactGroups(), mostMotionGroups_));
+  list.dispatch(*kernels_[at], bindings_[at], layout::ContactParameters{step, whose},
+                std::min(contactGroups(), mostMotionGroups_));
   list.endStage();
 }
 
@@ -370,6 +379,7 @@ Status ContactStage::makeRoom() {
     if (Status status = groom_->chunks[0].contactSystems.fillZero(); !status) return status;
   }
   if (Status status = bindLists(); !status) return status;
+  if (Status status = writeNumbers(); !status) return status;  // of the lists of lives
   c.parity ^= 1;
   c.isHalted = 0;
   --c.steps;
@@ -381,6 +391,7 @@ Status ContactStage::setSettings(const Settings& settings) {
                            settings.contacts.dampingRatio == settings_.dampingRatio;
   settings_ = settings.contacts;
   stepSeconds_ = settings.stepSeconds();
+  if (Status status = writeNumbers(); !status) return status;
   if (sameSprings) return {};
   control_.isListed = 0;
   return writeControl();
@@ -412,6 +423,7 @@ Status ContactStage::archive(Archive& archive) {
   }
   if (!archive.isReading()) return {};
   if (Status status = bindLists(); !status) return status;
+  if (Status status = writeNumbers(); !status) return status;
   return writeControl();
 }
 

@@ -30,8 +30,8 @@
 #include "ringlet/solver/contacts/contact_kernels.h"
 #include "ringlet/solver/contacts/contact_lists.h"
 #include "ringlet/solver/contacts/contact_lives.h"
+#include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/plan/submission_pace.h"
-#include "ringlet/solver/simulation.h"
 #include "ringlet/solver/strands/device_groom.h"
 
 namespace ringlet {
@@ -105,7 +105,7 @@ class ContactStage {
 
  private:
   struct Buffers {
-    gpu::Buffer contacts, neighbours, indices, grid, places, histories, guesses, sampled;
+    gpu::Buffer contacts, neighbours, indices, grid, places, histories, guesses, sampled, numbers;
   };
   ContactStage() = default;
   using EachBlock =
@@ -115,7 +115,7 @@ class ContactStage {
   enum ListPart { kHeads, kPairs };
   Status createLists();
   Status bindLists();
-  layout::ContactParameters parameters(std::uint32_t step) const;
+  layout::ContactNumbers numbers() const;
   void dispatch(gpu::CommandList& list, ContactKernel kernel, std::uint32_t step,
                 std::uint32_t groupCount) const;
   void dispatchIndirect(gpu::CommandList& list, ContactKernel kernel, std::uint32_t step,
@@ -124,6 +124,7 @@ class ContactStage {
   double skin() const;         // [m]
   double listedAhead() const;  // [r0]
   Status writeControl();
+  Status writeNumbers();
   const DeviceChunk& hair() const { return groom_->chunks[0]; }
 
   gpu::Device* device_ = nullptr;

@@ -68,21 +68,21 @@ std::uint32_t groupsOf(std::uint64_t particles) {
 
 Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& rest, const Settings& settings,
                                         const RestVolume& volume, bool divided, DeviceGroom& groom,
-                                        double range) {
+                                        const gpu::Buffer& poses, double range) {
   VolumeStage self;
   self.isDivided_ = divided;
   self.largestMass_ = volume.largestMass;
   self.longestStrand_ = volume.longestStrand;
   self.range_ = range;
   self.groom_ = &groom;
+  self.poses_ = &poses;
   self.densities_ = volume.densities;
   const std::uint64_t count = volume.particles.size();
   const std::uint32_t capacity = cellCapacity(volume.cells);
-  self.parameters_.count = static_cast<std::uint32_t>(count);
-  self.parameters_.cellCapacity = capacity;
-  self.parameters_.cell = static_cast<float>(volume.cell);
-  self.parameters_.warmth = static_cast<float>(kVolumeWarmth);
-  self.setSettings(settings);
+  self.numbers_.count = static_cast<std::uint32_t>(count);
+  self.numbers_.cellCapacity = capacity;
+  self.numbers_.cell = static_cast<float>(volume.cell);
+  self.numbers_.warmth = static_cast<float>(kVolumeWarmth);
   if (groupsOf(count) > device.properties().maxGroupCount) {
     return Error{fmt::format(
         "{} particles that meet as a volume are more than the {} this device takes at once; switch contacts "
@@ -135,10 +135,13 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
   auto controlRead = gpu::Buffer::create(device, sizeof(layout::VolumeControl), gpu::BufferKind::stream,
                                          "volume control read back");
   if (!controlRead) return controlRead.error();
+  auto numbers = createZero(device, sizeof(layout::VolumeNumbers), "volume numbers");
+  if (!numbers) return numbers.error();
   self.buffers_.emplace(Buffers{std::move(*particles), std::move(*states), std::move(*brought),
                                 std::move(*cells), std::move(*parcels), std::move(*nodes),
                                 std::move(*control), std::move(*located), std::move(*sums),
-                                std::move(*controlRead)});
+                                std::move(*controlRead), std::move(*numbers)});
+  if (Status status = self.setSettings(settings); !status) return status.error();
   if (Status status = self.forget(); !status) return status.error();
   for (const auto& kernel : self.kernels_) {
     auto bindings = gpu::Bindings::create(*kernel, self.bufferTable());
@@ -151,18 +154,19 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
 std::uint64_t VolumeStage::bytes() const {
   const Buffers& b = *buffers_;
   return b.particles.bytes() + b.states.bytes() + b.brought.bytes() + b.located.bytes() + b.cells.bytes() +
-         b.parcels.bytes() + b.nodes.bytes() + b.control.bytes() + b.sums.bytes() + b.controlRead.bytes();
+         b.parcels.bytes() + b.nodes.bytes() + b.control.bytes() + b.sums.bytes() + b.controlRead.bytes() +
+         b.numbers.bytes();
 }
 
 gpu::BufferTable VolumeStage::bufferTable() const {
   using namespace layout;
-  const auto& [particles, states, brought, cells, parcels, nodes, control, located, sums, controlRead] =
-      *buffers_;
+  const auto& [particles, states, brought, cells, parcels, nodes, control, located, sums, controlRead,
+               numbers] = *buffers_;
   const DeviceChunk& hair = groom_->chunks[0];
   return {{kBindVolumePositions, hair.positions},
           {kBindVolumeVelocities, hair.velocities},
           {kBindVolumeSolved, hair.solved},
-          {kBindVolumePoses, groom_->poses.seen()},
+          {kBindVolumePoses, *poses_},
           {kBindVolumeParticles, particles},
           {kBindVolumeStates, states},
           {kBindVolumeBrought, brought},
@@ -174,6 +178,7 @@ gpu::BufferTable VolumeStage::bufferTable() const {
           {kBindVolumeHalt, groom_->contactControl},
           {kBindVolumeLocated, located},
           {kBindVolumeSums, sums},
+          {kBindVolumeNumbers, numbers},
           {kBindVolumeLocatedTexels, located},
           {kBindVolumeCellTexels, cells},
           {kBindVolumePositionTexels, hair.positions},
@@ -188,34 +193,32 @@ gpu::BufferTable VolumeStage::bufferTable() const {
 }
 
 Status VolumeStage::release(std::span<const std::uint32_t> particles) {
-  auto all = downloadAll<layout::VolumeParticle>(buffers_->particles, parameters_.count);
+  auto all = downloadAll<layout::VolumeParticle>(buffers_->particles, numbers_.count);
   if (!all) return all.error();
   for (layout::VolumeParticle& each : *all)
     if (std::ranges::binary_search(particles, each.particle)) each.mass = 0;
   return buffers_->particles.upload(std::as_bytes(std::span(*all)));
 }
 
-void VolumeStage::setSettings(const Settings& settings) {
+Status VolumeStage::setSettings(const Settings& settings) {
   const double T = settings.stepSeconds();
   sorts_.setStep(T);
-  parameters_.seconds = static_cast<float>(T);
-  parameters_.drag = static_cast<float>(settings.contacts.volumeDrag);
-  parameters_.stiffness = static_cast<float>(settings.contacts.volumeStiffness);
-  parameters_.kept = static_cast<float>(std::exp(-T / settings.contacts.volumeMemorySeconds));
+  numbers_.seconds = static_cast<float>(T);
+  numbers_.drag = static_cast<float>(settings.contacts.volumeDrag);
+  numbers_.stiffness = static_cast<float>(settings.contacts.volumeStiffness);
+  numbers_.kept = static_cast<float>(std::exp(-T / settings.contacts.volumeMemorySeconds));
   // A term of the sums has kVolumeUnits at most. Without drag and stiffness there are none.
   constexpr auto kUnits = static_cast<double>(layout::kVolumeUnits);
   const double gain = T * (settings.contacts.volumeDrag + T * settings.contacts.volumeStiffness);
   const double longest = std::min(settings.maxStretch, kVolumeMostStretch) * longestStrand_;
-  parameters_.mostRate = static_cast<float>(range_ * settings.contacts.volumeMostRate(T, longest));
-  parameters_.unitsPerMass = static_cast<float>(kUnits / largestMass_);
-  parameters_.unitsPerGain = gain > 0 ? static_cast<float>(kUnits / (largestMass_ * gain)) : 0.0f;
+  numbers_.mostRate = static_cast<float>(range_ * settings.contacts.volumeMostRate(T, longest));
+  numbers_.unitsPerMass = static_cast<float>(kUnits / largestMass_);
+  numbers_.unitsPerGain = gain > 0 ? static_cast<float>(kUnits / (largestMass_ * gain)) : 0.0f;
+  return buffers_->numbers.upload(std::as_bytes(std::span(&numbers_, 1)));
 }
 
 layout::VolumeParameters VolumeStage::parameters(std::uint32_t step) const {
-  layout::VolumeParameters parameters = parameters_;
-  parameters.step = step;
-  parameters.sorts = sorts(step) ? 1 : 0;
-  return parameters;
+  return {step, sorts_.sorts(step) ? 1u : 0u};
 }
 void VolumeStage::dispatch(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step,
                            std::uint32_t groups) const {
@@ -233,7 +236,7 @@ void VolumeStage::recordNothing(gpu::CommandList& list) const {
 }
 
 void VolumeStage::dispatchParticles(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step) const {
-  const std::uint32_t groups = groupsOf(parameters_.count);
+  const std::uint32_t groups = groupsOf(numbers_.count);
   if (groups > 0) dispatch(list, kernel, step, groups);
 }
 
@@ -306,7 +309,7 @@ std::span<std::uint32_t> VolumeStage::sums() {
 }
 std::span<std::uint32_t> VolumeStage::densities() {
   auto* all = reinterpret_cast<std::uint32_t*>(buffers_->sums.mapped().data());
-  return {all + kSumsOfNode * parameters_.cellCapacity, kDensitiesOfNode * hostControl().cellCount};
+  return {all + kSumsOfNode * numbers_.cellCapacity, kDensitiesOfNode * hostControl().cellCount};
 }
 
 Status VolumeStage::forget() {
@@ -325,7 +328,7 @@ Result<VolumeReach> VolumeStage::reached() const {
   const auto control = downloadAll<layout::VolumeControl>(buffers_->control, 1);
   if (!control) return control.error();
   return VolumeReach{control->front().cut, double{std::bit_cast<float>(control->front().largest)},
-                     double{control->front().largestCell} / double{parameters_.cell}};
+                     double{control->front().largestCell} / double{numbers_.cell}};
 }
 
 Status VolumeStage::archive(Archive& archive) {

@@ -40,12 +40,12 @@ struct VolumeReach {
 
 class VolumeStage {
  public:
-  /// Fails, with the numbers and what to do, where the device lacks memory. `groom` is of one chunk, and must
-  /// live as long, in one place.
-  /// divided: other devices step other strands of the volume, which `volume` lacks. range: as
-  /// KernelChoice::volumeRange.
+  /// Fails, with the numbers and what to do, where the device lacks memory. `groom` is of one chunk; it and
+  /// the buffer of the head's poses (HeadInput) must live as long, in one place. divided: other devices step
+  /// other strands of the volume, which `volume` lacks. range: as KernelChoice::volumeRange.
   static Result<VolumeStage> create(gpu::Device& device, const RestState& rest, const Settings& settings,
-                                    const RestVolume& volume, bool divided, DeviceGroom& groom, double range);
+                                    const RestVolume& volume, bool divided, DeviceGroom& groom,
+                                    const gpu::Buffer& poses, double range);
 
   /// Number of kernels that no other simulation on this device had made before.
   std::size_t newKernelCount() const { return newKernels_.size(); }
@@ -83,8 +83,8 @@ class VolumeStage {
 
   /// These particles of the groom, by device index, ascending, are of the volume no more: they have fallen.
   Status release(std::span<const std::uint32_t> particles);
-  /// Changes the live settings. Invalidates earlier recordings.
-  void setSettings(const Settings& settings);
+  /// Changes the live settings, while no kernel runs. Invalidates earlier recordings.
+  Status setSettings(const Settings& settings);
   /// Clears displacements, after the hair was moved to another state.
   Status forget();
   /// Archives the state that the next step depends on besides positions, velocities and the result of the
@@ -100,7 +100,8 @@ class VolumeStage {
 
  private:
   struct Buffers {
-    gpu::Buffer particles, states, brought, cells, parcels, nodes, control, located, sums, controlRead;
+    gpu::Buffer particles, states, brought, cells, parcels, nodes, control, located, sums, controlRead,
+        numbers;
   };
   VolumeStage() = default;
   layout::VolumeParameters parameters(std::uint32_t step) const;
@@ -114,9 +115,10 @@ class VolumeStage {
   std::vector<std::size_t> newKernels_;
   std::vector<gpu::Bindings> bindings_;  // likewise
   DeviceGroom* groom_ = nullptr;
+  const gpu::Buffer* poses_ = nullptr;
   std::optional<Buffers> buffers_;
   std::vector<float> densities_;  // at rest
-  layout::VolumeParameters parameters_{};
+  layout::VolumeNumbers numbers_{};
   float largestMass_ = 0;
   VolumeSorts sorts_{};
   double longestStrand_ = 0;  // as RestVolume's

@@ -1,5 +1,5 @@
-// Implements the frames of divided hair (divided_hair.h). A frame is several submissions, each recorded when
-// it is due: the plan of the frame (plan/frame_plan.h), cut at its exchanges.
+// Implements the frames of contacts.divided hair (divided_hair.h). A frame is several submissions, each
+// recorded when it is due: the plan of the frame (plan/frame_plan.h), cut at its exchanges.
 #include <algorithm>
 #include <array>
 
@@ -16,15 +16,15 @@ Status Simulation::Implementation::startPart(FrameRecording& frame, gpu::Recorde
   if (Status status = record(frame, stages); !status) return status;
   recorder.barrier();
   buffers.recordControl(recorder);
-  if (volume) volume->recordControl(recorder);
+  if (contacts.volume) contacts.volume->recordControl(recorder);
   return recorder.submit();
 }
 
 // Waits for it.
 Status Simulation::Implementation::endPart(gpu::Recorder& recorder) {
   if (Status status = recorder.wait(); !status) return status;
-  addTimes(recorder);
-  if (contacts) contacts->readControl();
+  times.add(recorder);
+  if (contacts.pairs) contacts.pairs->readControl();
   return buffers.control().isHalted == layout::kHaltedByTurns ? Status{Error{kTooManyNear}} : Status{};
 }
 
@@ -32,33 +32,35 @@ Status Simulation::Implementation::endPart(gpu::Recorder& recorder) {
 Status Simulation::Implementation::exchangeStarts(PartStep& now) {
   ContactStage::Largest motion{};
   std::array<std::int32_t, 6> reach{};
-  if (contacts) motion = contacts->largest();
-  if (volume) reach = volume->reach();
+  if (contacts.pairs) motion = contacts.pairs->largest();
+  if (contacts.volume) reach = contacts.volume->reach();
   std::array<std::int32_t, 8> all{};
   std::ranges::copy(reach, std::ranges::copy(motion, all.begin()).out);
-  if (Status status = divided->link().largest(all); !status) return status;
+  if (Status status = contacts.divided->link().largest(all); !status) return status;
   std::copy_n(all.begin(), motion.size(), motion.begin());
   std::copy_n(all.begin() + motion.size(), reach.size(), reach.begin());
-  if (volume) volume->setReach(reach);
+  if (contacts.volume) contacts.volume->setReach(reach);
   now.largest = motion;
   now.sample.reset();
-  return contacts ? contacts->setLargest(motion) : Status{};
+  return contacts.pairs ? contacts.pairs->setLargest(motion) : Status{};
 }
 
 // A part that repeats a step knows the sample of all parts.
 Status Simulation::Implementation::exchangeSample(PartStep& now) {
   if (!now.sample) {
-    std::array<std::uint32_t, 2> sums{contacts->sample().sampled, contacts->sample().missed};
-    if (Status status = divided->link().sum(sums); !status) return status;
+    std::array<std::uint32_t, 2> sums{contacts.pairs->sample().sampled, contacts.pairs->sample().missed};
+    if (Status status = contacts.divided->link().sum(sums); !status) return status;
     now.sample = {sums[0], sums[1]};
   }
-  return contacts->setSample(*now.sample);
+  return contacts.pairs->setSample(*now.sample);
 }
 
 Status Simulation::Implementation::exchangeSums(const PlannedStage& stage) {
-  if (!volume) return {};
-  if (Status status = divided->link().sum(volume->sums()); !status) return status;
-  return stage.isFirst && volume->sorts(stage.step) ? divided->link().sum(volume->densities()) : Status{};
+  if (!contacts.volume) return {};
+  if (Status status = contacts.divided->link().sum(contacts.volume->sums()); !status) return status;
+  return stage.isFirst && contacts.volume->sorts(stage.step)
+             ? contacts.divided->link().sum(contacts.volume->densities())
+             : Status{};
 }
 
 // Rows are exchanged while the submission after theirs runs.
@@ -79,8 +81,8 @@ Status Simulation::Implementation::exchange(const PlannedStage& stage, PartStep&
 // If this part's lists find no room, the part repeats the step up to there; it has all data of the other
 // parts by then.
 Status Simulation::Implementation::runParts(std::size_t slot) {
-  gpu::Recorder& recorder = slots[slot].recorder;
-  slots[slot].recorded = FrameSlot::Recorded::nothing;
+  gpu::Recorder& recorder = frames.slots[slot].recorder;
+  frames.slots[slot].recorded = FrameSlot::Recorded::nothing;
   FrameRecording frame{recorder, pace, slot};
   const std::vector<PlannedStage> stages = planStages();
   const std::span<const PlannedStage> plan = stages;
@@ -90,16 +92,16 @@ Status Simulation::Implementation::runParts(std::size_t slot) {
     end = static_cast<std::size_t>(
         std::ranges::find(plan.subspan(begin), FrameStage::exchange, &PlannedStage::stage) - plan.begin());
     if (Status status = startPart(frame, recorder, plan.subspan(begin, end - begin)); !status) return status;
-    const Status exchanged = underWay ? divided->exchange(underWay->rows) : Status{};
+    const Status exchanged = underWay ? contacts.divided->exchange(underWay->rows) : Status{};
     underWay = nullptr;
     const Status ended = endPart(recorder);
     if (!exchanged) return exchanged;
     if (!ended) return ended;
-    if (contacts && contacts->isHalted()) {
-      if (Status status = contacts->makeRoom(); !status) return status;
-      if (Status status = contacts->setLargest(now.largest); !status) return status;
+    if (contacts.pairs && contacts.pairs->isHalted()) {
+      if (Status status = contacts.pairs->makeRoom(); !status) return status;
+      if (Status status = contacts.pairs->setLargest(now.largest); !status) return status;
       frame.repeatsStep = true;
-      end = contactsBegin(plan, contacts->haltedStep()) - 1;
+      end = contactsBegin(plan, contacts.pairs->haltedStep()) - 1;
       continue;
     }
     if (end == plan.size()) break;

@@ -1,49 +1,39 @@
 // Implements solver/inputs/frame_input.h.
 #include "ringlet/solver/inputs/frame_input.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
+#include "ringlet/solver/diagnostics.h"
+#include "ringlet/solver/inputs/frame_inputs.h"
+
 namespace ringlet {
 
-using gpu::Buffer;
-using gpu::BufferKind;
-
-Result<FrameInput> FrameInput::create(gpu::Device& device, std::uint64_t bytes, std::size_t slots,
-                                      const std::string& name) {
-  auto seen = Buffer::create(device, bytes, BufferKind::storage, name);
-  if (!seen) return seen.error();
-  return create(device, std::move(*seen), slots, name);
+Status FrameInput::stage(const InputSource& from, std::uint64_t bytes, const char* name) {
+  auto made = StagedBuffer::create(from.device, bytes, from.slots, name);
+  if (!made) return made.error();
+  staged_.push_back(std::move(*made));
+  return {};
 }
 
-Result<FrameInput> FrameInput::create(gpu::Device& device, gpu::Buffer seen, std::size_t slots,
-                                      const std::string& name) {
-  FrameInput input(std::move(seen));
-  for (std::size_t slot = 0; slot < slots; ++slot) {
-    auto written = Buffer::create(device, input.bytes(), BufferKind::stream,
-                                  fmt::format("{} of frame slot {}", name, slot));
-    if (!written) return written.error();
-    input.written_.push_back(std::move(*written));
-  }
-  return input;
-}
-
-std::uint64_t largestOf(std::span<const FrameInput> inputs) {
+std::uint64_t FrameInput::largestBuffer() const {
   std::uint64_t largest = 0;
-  for (const FrameInput& input : inputs) largest = std::max(largest, input.bytes());
+  for (const StagedBuffer& staged : staged_) largest = std::max(largest, staged.bytes());
   return largest;
 }
-std::uint64_t bytesOf(std::span<const FrameInput> inputs) {
+std::uint64_t FrameInput::bytes() const {
   std::uint64_t bytes = 0;
-  for (const FrameInput& input : inputs) bytes += input.bytes();
+  for (const StagedBuffer& staged : staged_) bytes += staged.bytes();
   return bytes;
 }
-std::uint64_t writtenBytesOf(std::span<const FrameInput> inputs) {
+std::uint64_t FrameInput::writtenBytes() const {
   std::uint64_t bytes = 0;
-  for (const FrameInput& input : inputs) bytes += input.writtenBytes();
+  for (const StagedBuffer& staged : staged_) bytes += staged.writtenBytes();
   return bytes;
+}
+void FrameInput::addTo(DeviceMemory& memory) const {
+  memory.world += bytes();
+  memory.frames += writtenBytes();
 }
 
 }  // namespace ringlet

@@ -1,56 +1,77 @@
-// FrameInput: data that the host writes for every frame. Kernels read one buffer; each frame in flight has
-// its own copy in host memory, from which its commands first fill that buffer. So the host can write the next
-// frame's data while the device still reads this frame's.
+// FrameInput: something outside that acts on one head's hair, as the host says it frame by frame.
+// frame_inputs.h lists them all; to add one, write a class and add a line there.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
+#include "ringlet/base/archive.h"
 #include "ringlet/base/result.h"
-#include "ringlet/gpu/buffer.h"
 #include "ringlet/gpu/command_list.h"
-#include "ringlet/gpu/device.h"
+#include "ringlet/gpu/kernel.h"
+#include "ringlet/scene/body.h"
+#include "ringlet/scene/head_pose.h"
+#include "ringlet/scene/settings.h"
+#include "ringlet/solver/inputs/staged_buffer.h"
 
 namespace ringlet {
 
-class FrameInput {
- public:
-  /// For `slots` frames in flight; `bytes` may be 0.
-  static Result<FrameInput> create(gpu::Device& device, std::uint64_t bytes, std::size_t slots,
-                                   const std::string& name);
-  /// Kernels are to see `seen`.
-  static Result<FrameInput> create(gpu::Device& device, gpu::Buffer seen, std::size_t slots,
-                                   const std::string& name);
+struct DeviceMemory;
+struct InputSource;
 
-  /// The buffer that kernels read.
-  const gpu::Buffer& seen() const { return seen_; }
-  std::uint64_t bytes() const { return seen_.bytes(); }
-  /// Size of all frames' copies [bytes].
-  std::uint64_t writtenBytes() const { return written_.size() * seen_.bytes(); }
-  /// The copy of this slot's frame, to be written while that frame is not submitted.
-  template <class T>
-  std::span<T> of(std::size_t slot) const {
-    const auto bytes = written_[slot].mapped();
-    return {reinterpret_cast<T*>(bytes.data()), bytes.size() / sizeof(T)};
-  }
-  /// Records the copy into the kernels' buffer, at the frame's start; a barrier must follow.
-  void record(gpu::CommandList& list, std::size_t slot) const {
-    list.copyBuffer(written_[slot], seen_, seen_.bytes());
-  }
+/// The poses of a frame.
+struct FrameContext {
+  // [0]: one outer step before the frame; [1]: at its start; [2 + k]: at the end of its step k.
+  std::span<const HeadPose> heads;
+  std::span<const BodyPose> bodyPoses, rootPoses;  // as Simulation::stepFrame takes them
+  double seconds = 0;                              // since the simulation began, at the frame's start
+  double stepSeconds = 0;
 
- private:
-  explicit FrameInput(gpu::Buffer seen) : seen_(std::move(seen)) {}
-
-  gpu::Buffer seen_;
-  std::vector<gpu::Buffer> written_;  // by slot
+  std::size_t steps() const { return heads.size() - 2; }
+  const HeadPose& end() const { return heads.back(); }
 };
 
-/// Sizes of the inputs of all chunks of a groom [bytes].
-std::uint64_t largestOf(std::span<const FrameInput> inputs);
-std::uint64_t bytesOf(std::span<const FrameInput> inputs);
-std::uint64_t writtenBytesOf(std::span<const FrameInput> inputs);
+class FrameInput {
+ public:
+  virtual ~FrameInput() = default;
+
+  /// Makes what features of the hair need and it lacked; its state stays. Bindings are then to be made anew.
+  /// Fails when the device lacks memory.
+  virtual Status prepare(const InputSource&) { return {}; }
+  /// Writes the frame of a slot: what kernels are to read.
+  virtual void writeFrame(std::size_t slot, const FrameContext& frame) = 0;
+  /// In place of writeFrame: a frame that is not stepped, since the head jumps.
+  virtual void jump(const FrameContext&) {}
+  /// Whether nothing here changes in this frame.
+  virtual bool isQuiet(const FrameContext&) const { return true; }
+  /// From these settings to others, between frames.
+  virtual void setSettings(const Settings&, const Settings&) {}
+  /// The state that later frames depend on and the host does not set anew. Fails where the device does.
+  virtual Status archive(Archive&) { return {}; }
+
+  /// Bindings of the strand kernels, of a chunk.
+  virtual gpu::BufferTable bufferTable(std::size_t chunk) const = 0;
+  /// The largest buffer that kernels read as texels, and the size of all on the device [bytes].
+  virtual std::uint64_t largestBuffer() const;
+  virtual std::uint64_t bytes() const;
+  virtual void addTo(DeviceMemory& memory) const;
+
+  /// Records the copies to the device with which a frame of this slot begins.
+  void record(gpu::CommandList& list, std::size_t slot) const {
+    for (const StagedBuffer& staged : staged_) staged.record(list, slot);
+  }
+
+ protected:
+  FrameInput() = default;
+  FrameInput(FrameInput&&) = default;
+  FrameInput& operator=(FrameInput&&) = default;
+  /// One more buffer that is written for every frame; `bytes` may be 0. Fails when the device lacks memory.
+  Status stage(const InputSource& from, std::uint64_t bytes, const char* name);
+  std::uint64_t writtenBytes() const;  // by the host, for all frames in flight
+
+  std::vector<StagedBuffer> staged_;  // in the order they were added
+};
 
 }  // namespace ringlet

@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "ringlet/base/assert.h"
-#include "ringlet/solver/inputs/device_roots.h"
+#include "ringlet/solver/inputs/frame_inputs.h"
+#include "ringlet/solver/inputs/roots_input.h"
+#include "ringlet/solver/simulation.h"
 
 namespace ringlet {
 namespace {
@@ -19,8 +21,17 @@ Vec3d placed(const HeadPose& head, const BodyPose& carrier, Vec3d shift, Vec3f p
 RigidHair::RigidHair(std::vector<RigidStrand> strands, std::size_t groomStrandCount)
     : strands_(std::move(strands)), groomStrandCount_(groomStrandCount), poses_(strands_.size()) {}
 
-void RigidHair::setRootShifts(std::span<const Vec3d> shifts) {
-  for (std::size_t k = 0; k < strands_.size(); ++k) poses_[k].shift = shifts[strands_[k].strandInGroom];
+Result<RigidHair> RigidHair::create(const InputSource& from) {
+  const InitialState& initial = from.initial;
+  RigidHair self(from.rest.rigid, from.rest.groomStrandCount);
+  if (!initial.rootShifts.empty())
+    for (std::size_t k = 0; k < self.strands_.size(); ++k)
+      self.poses_[k].shift = initial.rootShifts[self.strands_[k].strandInGroom];
+  if (!initial.roots.empty()) {
+    self.take(initial.rootsEarlier);
+    self.take(initial.roots);
+  }
+  return self;
 }
 
 void RigidHair::take(std::span<const BodyPose> ofOneStep) {
@@ -30,12 +41,8 @@ void RigidHair::take(std::span<const BodyPose> ofOneStep) {
   }
 }
 
-void RigidHair::placeRoots(std::span<const BodyPose> now, std::span<const BodyPose> oneStepEarlier) {
-  take(oneStepEarlier);
-  take(now);
-}
-
-void RigidHair::endFrame(std::span<const BodyPose> poses) {
+void RigidHair::writeFrame(std::size_t, const FrameContext& frame) {
+  const std::span<const BodyPose> poses = frame.rootPoses;
   RINGLET_ASSERT(poses.size() % groomStrandCount_ == 0, "every strand has a pose in every step");
   if (poses.empty()) {
     for (Poses& p : poses_) p.oneStepEarlier = p.now;
@@ -45,9 +52,15 @@ void RigidHair::endFrame(std::span<const BodyPose> poses) {
   take(poses.last(groomStrandCount_));
 }
 
-void RigidHair::jump(std::span<const BodyPose> poses) {
-  if (!poses.empty()) take(poses.last(groomStrandCount_));
+void RigidHair::jump(const FrameContext& frame) {
+  if (!frame.rootPoses.empty()) take(frame.rootPoses.last(groomStrandCount_));
   for (Poses& p : poses_) p.oneStepEarlier = p.now;
+}
+
+void RigidHair::setSettings(const Settings& before, const Settings& wanted) {
+  const double share = wanted.stepSeconds() / before.stepSeconds();
+  if (share == 1) return;
+  for (Poses& p : poses_) p.oneStepEarlier = interpolate(p.now, p.oneStepEarlier, share);
 }
 
 std::vector<Vec3f> RigidHair::positions(const HeadPose& now) const {

@@ -4,36 +4,33 @@
 #include <span>
 #include <vector>
 
-#include "ringlet/base/archive.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/scene/body.h"
 #include "ringlet/scene/head_pose.h"
+#include "ringlet/solver/inputs/frame_input.h"
 
 namespace ringlet {
 
-class RigidHair {
+class RigidHair : public FrameInput {
  public:
-  /// Of these strands, at first without root poses and shifts.
-  RigidHair(std::vector<RigidStrand> strands, std::size_t groomStrandCount);
+  /// With the root poses and shifts of InitialState.
+  static Result<RigidHair> create(const InputSource& from);
 
   std::size_t strandCount() const { return strands_.size(); }
 
-  /// Sets shifts as in InitialState.
-  void setRootShifts(std::span<const Vec3d> shifts);
-  /// Sets root poses before the next step and one step earlier, of all strands in groom order.
-  void placeRoots(std::span<const BodyPose> now, std::span<const BodyPose> oneStepEarlier);
-  /// Moves by the poses of a frame's steps, as Simulation::stepFrame takes them; without any, strands stay.
-  void endFrame(std::span<const BodyPose> poses);
-  /// The same of a frame that is not stepped: afterwards roots are at rest relative to the head.
-  void jump(std::span<const BodyPose> poses);
-
-  /// Adapts to steps that are this share as long: the velocities of the roots stay.
-  void rescale(double share) {
-    for (Poses& p : poses_) p.oneStepEarlier = interpolate(p.now, p.oneStepEarlier, share);
-  }
+  /// Moves by the poses of a frame's steps; without any, strands stay.
+  void writeFrame(std::size_t slot, const FrameContext& frame) override;
+  /// Afterwards roots are at rest relative to the head.
+  void jump(const FrameContext& frame) override;
+  /// Adapts to another step length: the velocities of the roots stay.
+  void setSettings(const Settings& before, const Settings& wanted) override;
   /// The root poses now and one step earlier.
-  void archive(Archive& archive) { archive.values(std::span(poses_)); }
+  Status archive(Archive& archive) override {
+    archive.values(std::span(poses_));
+    return {};
+  }
+  gpu::BufferTable bufferTable(std::size_t) const override { return {}; }
 
   /// Positions relative to the head's origin, along world axes, strand by strand [m].
   std::vector<Vec3f> positions(const HeadPose& now) const;
@@ -44,6 +41,7 @@ class RigidHair {
   void scatter(std::span<const Vec3f> values, std::span<Vec3f> inGroomOrder) const;
 
  private:
+  RigidHair(std::vector<RigidStrand> strands, std::size_t groomStrandCount);
   struct Poses {
     BodyPose now, oneStepEarlier;
     Vec3d shift;

@@ -37,11 +37,11 @@ GroomRecords groomRecords(const Settings& settings, const KernelChoice& choice, 
   if (kinds.any()) records.solved = sizeof(layout::vec4);
   if (kinds.pairs) records.contactSystem = sizeof(layout::ContactSystem);
   if (kinds.volume) records.addedByVolume = sizeof(layout::vec4);
-  if (choice.forces) records.force = sizeof(layout::vec4);
-  if (choice.goals) records.goals = 2 * sizeof(layout::vec4);  // at the frame's start and at its end
+  if (choice.features.forces) records.force = sizeof(layout::vec4);
+  if (choice.features.goals) records.goals = 2 * sizeof(layout::vec4);  // at the frame's start and at its end
   records.strandRest = sizeof(layout::StrandRest);
   records.report = sizeof(layout::StrandReport);
-  if (choice.movingRoots)
+  if (choice.features.roots)
     records.rootPoses = (static_cast<std::uint64_t>(settings.stepsPerFrame) + 1) * sizeof(layout::RootPose);
   return records;
 }

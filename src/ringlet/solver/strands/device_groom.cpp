@@ -150,9 +150,19 @@ Status DeviceGroom::setConstants(gpu::Device& device, std::span<const layout::St
   return {};
 }
 
+Result<std::vector<layout::ParticleRest>> particlesOf(std::span<const ConstantChunk> chunks) {
+  std::vector<layout::ParticleRest> all;
+  for (const ConstantChunk& chunk : chunks) {
+    const auto some = downloadAll<layout::ParticleRest>(*chunk.particles, chunk.part.particleCount());
+    if (!some) return some.error();
+    all.insert(all.end(), some->begin(), some->end());
+  }
+  return all;
+}
+
 Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, std::span<const ConstantChunk> constants,
                                         std::span<const layout::StrandRest> shifted,
-                                        const GroomRecords& records, std::size_t slots, HeadPlaces* places) {
+                                        const GroomRecords& records, HeadPlaces* places) {
   std::optional<HeadPlace> place;
   std::optional<HeadBuffers> ofPlace;
   if (places) {
@@ -162,10 +172,6 @@ Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, std::span<const Con
     if (!part) return part.error();
     place = std::move(*taken), ofPlace = std::move(*part);
   }
-  constexpr std::uint64_t kPoseBytes = layout::kMaxStepPoses * sizeof(layout::StepPose);
-  auto poses = ofPlace ? FrameInput::create(device, std::move(ofPlace->poses), slots, "poses")
-                       : FrameInput::create(device, kPoseBytes, slots, "poses");
-  if (!poses) return poses.error();
   auto control = createZero(
       device, records.contactSystem + records.addedByVolume > 0 ? sizeof(layout::ContactControl) : 0,
       "contact control");
@@ -173,7 +179,7 @@ Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, std::span<const Con
   auto controlRead = gpu::Buffer::create(device, sizeof(layout::ContactControl), gpu::BufferKind::stream,
                                          "contact control read back");
   if (!controlRead) return controlRead.error();
-  DeviceGroom groom{{}, std::move(*poses), std::move(*control), std::move(*controlRead), !shifted.empty()};
+  DeviceGroom groom{{}, std::move(*control), std::move(*controlRead), !shifted.empty()};
   groom.place = std::move(place);
   for (const ConstantChunk& constant : constants) {
     auto chunk = createChunk(device, constant, records, ofPlace ? &*ofPlace : nullptr);
@@ -197,8 +203,6 @@ gpu::BufferTable DeviceGroom::bufferTable(std::size_t chunk) const {
           {kBindStrands, *c.strands},
           {kBindReports, c.reports},
           {kBindTaps, c.taps},
-          {kBindPoses, poses.seen()},
-          {kBindHeadPoseTexels, poses.seen()},
           {kBindSolved, c.solved},
           {kBindContactSystems, c.contactSystems},
           {kBindContactControl, contactControl},

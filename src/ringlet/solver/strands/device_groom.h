@@ -14,11 +14,11 @@
 #include "layout/strands.h"
 #include "ringlet/base/result.h"
 #include "ringlet/gpu/buffer.h"
+#include "ringlet/gpu/command_list.h"
 #include "ringlet/gpu/device.h"
 #include "ringlet/gpu/device_buffers.h"
 #include "ringlet/gpu/kernel.h"
 #include "ringlet/rest/rest_state.h"
-#include "ringlet/solver/inputs/frame_input.h"
 #include "ringlet/solver/inputs/head_places.h"
 #include "ringlet/solver/plan/groom_chunks.h"
 
@@ -39,6 +39,9 @@ struct ConstantChunk {
   /// Others in their place, while no kernel reads them.
   Status upload(std::span<const layout::StrandRest> all, std::span<const layout::ParticleRest> allParticles);
 };
+
+/// The particles of all chunks, from the device.
+Result<std::vector<layout::ParticleRest>> particlesOf(std::span<const ConstantChunk> chunks);
 
 /// What kernels see of some of the strands of one head.
 struct DeviceChunk {
@@ -62,18 +65,17 @@ Result<std::vector<GroomChunk>> cutForDevice(const gpu::Device& device,
 
 struct DeviceGroom {
   std::vector<DeviceChunk> chunks;
-  FrameInput poses;                  // StepPose[kMaxStepPoses]
   gpu::Buffer contactControl;        // empty without contacts
   gpu::Buffer controlRead;           // as the last frame left it, in the host's memory
   bool hasOwnStrands = false;        // which no other head sees
   std::vector<ConstantChunk> own{};  // in place of what heads share, of all chunks; none: that
   std::optional<HeadPlace> place{};  // among other heads, of which all that changes is a part
 
-  /// `shifted`: all strands in device order, of a head whose roots move beside it; else none. `slots`: frames
-  /// in flight. `places`: among which to take one, or null. Fails when the device lacks memory.
+  /// `shifted`: all strands in device order, of a head whose roots move beside it; else none. `places`: among
+  /// which to take one, or null. Fails when the device lacks memory.
   static Result<DeviceGroom> create(gpu::Device& device, std::span<const ConstantChunk> constants,
                                     std::span<const layout::StrandRest> shifted, const GroomRecords& records,
-                                    std::size_t slots, HeadPlaces* places);
+                                    HeadPlaces* places);
 
   /// Constants of this head's own in place of the others; kernels must be bound to them anew. Fails when the
   /// device lacks memory.

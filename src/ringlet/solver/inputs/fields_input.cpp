@@ -1,10 +1,13 @@
-// Implements solver/inputs/device_fields.h.
-#include "ringlet/solver/inputs/device_fields.h"
+// Implements solver/inputs/fields_input.h.
+#include "ringlet/solver/inputs/fields_input.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "ringlet/base/packed.h"
 #include "ringlet/gpu/device_buffers.h"
+#include "ringlet/solver/inputs/frame_inputs.h"
 
 namespace ringlet {
 namespace {
@@ -38,8 +41,7 @@ layout::StepField packedField(const ForceField& field, std::uint32_t firstNode, 
 
 }  // namespace
 
-Result<DeviceFields> DeviceFields::create(gpu::Device& device, std::span<const ForceField> fields,
-                                          int mostSteps, std::size_t slots) {
+Result<FieldsInput> FieldsInput::create(const InputSource& from, std::span<const ForceField> fields) {
   if (fields.size() > kMostForceFields)
     return Error{fmt::format("found {} fields; expected at most {}", fields.size(), kMostForceFields)};
   std::vector<layout::vec4> nodes;
@@ -50,39 +52,50 @@ Result<DeviceFields> DeviceFields::create(gpu::Device& device, std::span<const F
     if (!field.grid) continue;
     for (const Vec3f& velocity : field.grid->velocities) nodes.push_back(packed(velocity));
   }
-  auto steps = FrameInput::create(
-      device, static_cast<std::uint64_t>(mostSteps) * fields.size() * sizeof(layout::StepField), slots,
-      "fields");
-  if (!steps) return steps.error();
-  auto nodeBuffer = createFilled(device, nodes, "grids of fields");
+  auto nodeBuffer = createFilled(from.device, nodes, "grids of fields");
   if (!nodeBuffer) return nodeBuffer.error();
-  DeviceFields made(std::move(*steps), std::move(*nodeBuffer));
-  made.firstNodes_ = std::move(firstNodes);
-  made.set(fields, fields);
-  return made;
+  FieldsInput self(std::move(*nodeBuffer));
+  const auto mostSteps = static_cast<std::uint64_t>(from.settings.stepsPerFrame);
+  if (Status status = self.stage(from, mostSteps * fields.size() * sizeof(layout::StepField), "fields");
+      !status)
+    return status.error();
+  self.firstNodes_ = std::move(firstNodes);
+  self.set(fields, fields);
+  return self;
 }
 
-bool DeviceFields::hasRoomFor(std::span<const ForceField> fields) const {
+bool FieldsInput::hasRoomFor(std::span<const ForceField> fields) const {
   const auto gridOf = [](const ForceField& field) { return field.grid.get(); };
   return std::ranges::equal(fields, to_, {}, gridOf, gridOf);
 }
 
-void DeviceFields::set(std::span<const ForceField> from, std::span<const ForceField> to) {
+void FieldsInput::set(std::span<const ForceField> from, std::span<const ForceField> to) {
   from_.assign(from.begin(), from.end());
   to_.assign(to.begin(), to.end());
 }
 
-void DeviceFields::writeFrame(std::size_t slot, std::span<const HeadPose> heads, double stepSeconds) {
-  const std::size_t steps = heads.size() - 1, count = to_.size();
-  const auto out = steps_.of<layout::StepField>(slot);
+void FieldsInput::writeFrame(std::size_t slot, const FrameContext& frame) {
+  const std::size_t steps = frame.steps(), count = to_.size();
+  const auto out = staged_[0].of<layout::StepField>(slot);
   for (std::size_t k = 0; k < steps; ++k) {
-    const Vec3d travel = (heads[k + 1].position - heads[k].position) / stepSeconds;
+    const HeadPose& head = frame.heads[1 + k];
+    const Vec3d travel = (frame.heads[2 + k].position - head.position) / frame.stepSeconds;
     const double share = static_cast<double>(k + 1) / static_cast<double>(steps);
     for (std::size_t f = 0; f < count; ++f)
-      out[k * count + f] =
-          packedField(interpolate(from_[f], to_[f], share), firstNodes_[f], heads[k], travel);
+      out[k * count + f] = packedField(interpolate(from_[f], to_[f], share), firstNodes_[f], head, travel);
   }
-  endFrame();
+  from_ = to_;
+}
+
+gpu::BufferTable FieldsInput::bufferTable(std::size_t) const {
+  using namespace layout;
+  return {{kBindFields, staged_[0].seen()},
+          {kBindFieldNodes, nodes_},
+          {kBindFieldTexels, staged_[0].seen()},
+          {kBindFieldNodeTexels, nodes_}};
+}
+std::uint64_t FieldsInput::largestBuffer() const {
+  return std::max(FrameInput::largestBuffer(), nodes_.bytes());
 }
 
 }  // namespace ringlet

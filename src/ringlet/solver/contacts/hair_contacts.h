@@ -1,0 +1,31 @@
+// HairContacts: how the strands of one head hear of each other on a device; nothing without contacts.
+#pragma once
+
+#include <optional>
+
+#include "ringlet/base/archive.h"
+#include "ringlet/base/result.h"
+#include "ringlet/rest/rest_contacts.h"
+#include "ringlet/solver/contacts/contact_stage.h"
+#include "ringlet/solver/contacts/volume_stage.h"
+#include "ringlet/solver/divided/divided_hair.h"
+#include "ringlet/solver/simulation.h"
+
+namespace ringlet {
+
+struct HairContacts {
+  std::optional<ContactStage> pairs{};   // of strands that meet pair by pair
+  std::optional<VolumeStage> volume{};   // of strands that meet as a volume
+  std::optional<DividedHair> divided{};  // if other devices step some of the strands
+  ContactReport atRest{};
+
+  ContactKinds kinds() const { return {pairs.has_value(), volume.has_value()}; }
+  /// Clears contacts and the volume's displacements, after the hair was moved to another state.
+  Status forget();
+  /// As the stages'.
+  Status archive(Archive& archive);
+  /// atRest, with what the stages know now; without the momentum.
+  Result<ContactReport> report() const;
+};
+
+}  // namespace ringlet

@@ -1,0 +1,38 @@
+// FramesInFlight: which frames of a head are submitted, finished and waited for, and their slots.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/solver/strands/frame_slot.h"
+
+namespace ringlet {
+
+/// Frame n has slot n % kFramesInFlight: submitted to the device, finished by it, waited for by the caller.
+struct FramesInFlight {
+  std::uint64_t submitted = 0, finished = 0, waited = 0;
+  bool isReadBack = false;      // the last frame's positions are those on the device
+  std::optional<Error> lost{};  // after which the state is unknown
+  std::vector<FrameSlot> slots{};
+
+  FrameSlot& slotOf(std::uint64_t frame) { return slots[frame % slots.size()]; }
+  /// Of the next frame to be submitted.
+  std::size_t nextSlot() const { return submitted % slots.size(); }
+  bool areAllWaitedFor() const { return waited == submitted; }
+  /// Positions come to the host's memory after every frame.
+  bool readBack() const { return slots.front().readback.has_value(); }
+  /// Recordings are invalid.
+  void forgetRecordings() {
+    for (FrameSlot& slot : slots) slot.recorded = FrameSlot::Recorded::nothing;
+  }
+  /// Read-back positions are invalid too.
+  void forget() {
+    isReadBack = false;
+    forgetRecordings();
+  }
+};
+
+}  // namespace ringlet

@@ -1,0 +1,44 @@
+// HairKernels: the strand kernels of one head, bound to its buffers.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "ringlet/gpu/kernel.h"
+#include "ringlet/solver/inputs/head_places.h"
+#include "ringlet/solver/plan/shape_plan.h"
+
+namespace ringlet {
+
+/// This head and some behind it in its row, as a dispatch sees them.
+struct BoundHeads {
+  HeadBuffers buffers;
+  std::vector<gpu::Bindings> bindings;  // one a range
+};
+
+/// In the shapes of these ranges.
+struct StrandKernels {
+  const std::vector<StrandRange>* ranges = nullptr;
+  std::vector<std::shared_ptr<const gpu::Kernel>> kernels{};  // one per shape
+  std::vector<std::size_t> kernelOf{};                        // of each range
+  std::vector<gpu::Bindings> bindings{};                      // one per range
+  bool areOfHeads = false;                                    // StrandKernelOptions::heads
+  bool areFallen = false;                                     // StrandKernelOptions::falls
+  std::map<std::uint32_t, BoundHeads> ofHeads{};              // by how many; of one: bindings
+
+  const gpu::Bindings& bindingsOf(std::uint32_t range, std::uint32_t heads) const {
+    return heads > 1 ? ofHeads.at(heads).bindings[range] : bindings[range];
+  }
+  bool areThere() const { return !kernels.empty(); }
+};
+
+struct HairKernels {
+  StrandKernels strands;
+  StrandKernels firstSolve;  // of the first solve of a step; none: the kernels above
+  StrandKernels fallen;      // of what was cut off
+};
+
+}  // namespace ringlet
