@@ -154,10 +154,11 @@ Result<double> shakenError(
   // Ones at which no pair is within rounding of touching or not in any step: from there on float and double
   // would go different ways.
   const double amplitude = settings.contacts.taper == ContactTaper::time ? 0.032 : 0.031;
+  const bool arePairs = settings.contacts.method != ContactMethod::volume;
+  const Vec3d turn = arePairs ? Vec3d{0, 0.05, 0} : Vec3d{0.02, 0.05, 0.01};
   double worst = 0;
   for (int frame = 1; frame <= frameCount; ++frame) {
-    const HeadPose next{{0, 0, amplitude * std::sin(0.5 * frame)},
-                        fromRotationVector(Vec3d{0, 0.05 * frame, 0})};
+    const HeadPose next{{0, 0, amplitude * std::sin(0.5 * frame)}, fromRotationVector(turn * double(frame))};
     if (Status stepped = simulation->stepFrame(next); !stepped) return stepped.error();
     std::vector<HeadPose> poses;
     for (int k = 1; k <= settings.stepsPerFrame; ++k)

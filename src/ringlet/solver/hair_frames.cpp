@@ -125,7 +125,7 @@ bool Simulation::Implementation::goesWith(const Implementation& before) const {
 // Beside what the list has of other heads. The submission's length is the host's. `heads`: as FrameRecording
 // has them.
 Status Simulation::Implementation::recordBeside(gpu::CommandList& list, bool works, std::uint32_t heads) {
-  const std::size_t slot = frames.submitted++ % kFramesInFlight;
+  const std::size_t slot = frames.slotNumber(frames.submitted++);
   if (!works) {
     frames.waited = ++frames.finished;
     return {};
@@ -147,7 +147,7 @@ Status HairFrames::isOver(Simulation& hair) {
   while (oldest < self.frames.submitted && !isHosts(oldest)) ++oldest;
   if (oldest == self.frames.submitted) return {};
   if (Status status = self.finishFrames(oldest); !status) return status;
-  if (Status status = self.runToEnd(oldest % Simulation::kFramesInFlight); !status) {
+  if (Status status = self.runToEnd(self.frames.slotNumber(oldest)); !status) {
     self.frames.lost = status.error();
     return status;
   }

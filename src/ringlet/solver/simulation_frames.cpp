@@ -84,8 +84,8 @@ void Simulation::Implementation::dispatchAll(FrameRecording& frame, const Strand
 }
 
 // What a frame brings back to the host, also one without steps. Without timestamps a submission's time is
-// contacts.divided among its stages: stepping then keeps all of it. Each submission of contacts.divided hair
-// brings its control block back.
+// divided among its stages: stepping then keeps all of it. Each submission of divided hair brings its control
+// block back.
 void Simulation::Implementation::recordEnd(FrameRecording& frame) const {
   const bool isTimed = frames.readBack() && device().gpu().properties().hasTimestamps;
   if (isTimed) frame.list.beginStage(kCopyStage);
@@ -215,7 +215,7 @@ Status Simulation::Implementation::recordFrame(FrameRecording& frame) const {
   return record(frame, planStages());
 }
 
-// A frame of this slot's, to be frames.submitted as often as wanted.
+// A frame of this slot's, to be submitted as often as wanted.
 Status Simulation::Implementation::recordSlot(std::size_t slot) {
   FrameSlot& of = frames.slots[slot];
   if (Status status = of.recorder.begin(); !status) return status;
@@ -252,7 +252,7 @@ Result<bool> Simulation::Implementation::prepareFrame(std::span<const HeadPose> 
                            settings.stepSeconds()};
   const auto isQuiet = [&](const FrameInput* input) { return input->isQuiet(frame); };
   stillness.begin(settings.sleepSpeed > 0 && !jumps && std::ranges::all_of(inputs.each(), isQuiet));
-  const std::size_t slot = frames.nextSlot();
+  const std::size_t slot = frames.slotNumber(frames.submitted);
   if (jumps) {
     if (Status status = jump(frame); !status) return status.error();
     stillness.observe({}, 0);
@@ -281,7 +281,7 @@ Status Simulation::Implementation::submitFrame(std::span<const HeadPose> stepPos
   }
   const auto works = prepareFrame(stepPoses, bodyPoses, rootPoses);
   if (!works) return works.error();
-  const std::size_t slot = frames.nextSlot();
+  const std::size_t slot = frames.slotNumber(frames.submitted);
   if (*works && contacts.divided) {
     if (Status status = runParts(slot); !status) {
       contacts.divided->fail(status.error());
@@ -306,7 +306,7 @@ Status Simulation::Implementation::submitFrame(std::span<const HeadPose> stepPos
 Status Simulation::Implementation::finishFrames(std::uint64_t end) {
   if (frames.lost) return *frames.lost;
   for (; frames.finished < end; ++frames.finished) {
-    const std::size_t slot = frames.finished % kFramesInFlight;
+    const std::size_t slot = frames.slotNumber(frames.finished);
     if (frames.slots[slot].isHosts)
       return Error{
           "a frame of this hair is in a host's commands: say that the frame is over once they are done"};

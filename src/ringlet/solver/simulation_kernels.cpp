@@ -83,7 +83,7 @@ StrandKernelOptions Simulation::Implementation::kernelOptions() const {
           .groupSize = featurePlan->groupSize};
 }
 
-// Of what was cut off: no root carries it, and it is pulled to no place and no part of the contacts.volume.
+// Of what was cut off: no root carries it, and it is pulled to no place and no part of the volume.
 StrandKernelOptions Simulation::Implementation::fallenOptions() const {
   StrandKernelOptions options = kernelOptions();
   options.falls = true;
@@ -128,9 +128,10 @@ Status Simulation::Implementation::makeKernels() {
   ofFirstSolve.bodies = false;
   const std::vector<std::size_t> newOnes = newKernels(kernels.strands, options);
   const std::vector<std::size_t> newFirst = newKernels(kernels.firstSolve, ofFirstSolve);
+  const bool isFirst = !kernels.strands.areThere();  // then those of contacts may be new too
   const std::size_t newCount = newOnes.size() + newFirst.size() +
-                               (contacts.pairs ? contacts.pairs->newKernelCount() : 0) +
-                               (contacts.volume ? contacts.volume->newKernelCount() : 0);
+                               (isFirst && contacts.pairs ? contacts.pairs->newKernelCount() : 0) +
+                               (isFirst && contacts.volume ? contacts.volume->newKernelCount() : 0);
   const CompileNotice notice(asset->choice.observer, newCount);
   if (Status status = create(kernels.strands, options); !status) return status;
   if (Status status = create(kernels.firstSolve, ofFirstSolve); !status) return status;
@@ -143,8 +144,8 @@ Status Simulation::Implementation::makeKernels() {
     if (Status status = recorder->begin(); !status) return status;
     dispatchNothing(*recorder, kernels.strands, newOnes);
     dispatchNothing(*recorder, kernels.firstSolve, newFirst);
-    if (contacts.pairs) contacts.pairs->recordNothing(*recorder);
-    if (contacts.volume) contacts.volume->recordNothing(*recorder);
+    if (isFirst && contacts.pairs) contacts.pairs->recordNothing(*recorder);
+    if (isFirst && contacts.volume) contacts.volume->recordNothing(*recorder);
     if (Status status = recorder->submitAndWait(); !status) return status;
   }
   times.compileMilliseconds +=

@@ -50,8 +50,12 @@ Status Simulation::Implementation::change(const Settings& wanted) {
   if (contacts.volume) {
     if (Status status = contacts.volume->setSettings(wanted); !status) return status;
   }
-  if (wanted.stepSeconds() != settings.stepSeconds()) clock.endLength(settings.stepSeconds());
-  for (FrameInput* input : inputs.each()) input->setSettings(settings, wanted);
+  const double share = wanted.stepSeconds() / settings.stepSeconds();
+  if (share != 1) clock.endLength(settings.stepSeconds());
+  for (FrameInput* input : inputs.each()) {
+    if (share != 1) input->rescale(share);
+    input->setSettings(settings, wanted);
+  }
   settings = wanted;
   stillness.wake();
   frames.forgetRecordings();

@@ -208,10 +208,10 @@ Status ContactStage::createLists() {
   auto made = listMaker().make(parts, near_.most * layout::kListBlock);
   if (!made) return made.error();
   lists_ = std::move(*made);
-  return writeNumbers();
+  return {};
 }
 
-// The lists in the table of bindings.
+// The lists in the table of bindings, and their room among the numbers.
 Status ContactStage::bindLists() {
   bindings_.clear();
   for (const auto& kernel : kernels_) {
@@ -219,7 +219,7 @@ Status ContactStage::bindLists() {
     if (!bindings) return bindings.error();
     bindings_.push_back(std::move(*bindings));
   }
-  return {};
+  return writeNumbers();
 }
 
 // The table of bindings: buffers as storage, and some of them as texels too.
@@ -379,7 +379,6 @@ Status ContactStage::makeRoom() {
     if (Status status = groom_->chunks[0].contactSystems.fillZero(); !status) return status;
   }
   if (Status status = bindLists(); !status) return status;
-  if (Status status = writeNumbers(); !status) return status;  // of the lists of lives
   c.parity ^= 1;
   c.isHalted = 0;
   --c.steps;
@@ -423,7 +422,6 @@ Status ContactStage::archive(Archive& archive) {
   }
   if (!archive.isReading()) return {};
   if (Status status = bindLists(); !status) return status;
-  if (Status status = writeNumbers(); !status) return status;
   return writeControl();
 }
 

@@ -1,4 +1,4 @@
-// Implements the frames of contacts.divided hair (divided_hair.h). A frame is several submissions, each
+// Implements the frames of divided hair (divided_hair.h). A frame is several submissions, each
 // recorded when it is due: the plan of the frame (plan/frame_plan.h), cut at its exchanges.
 #include <algorithm>
 #include <array>

@@ -49,9 +49,7 @@ float restCoreLength(std::span<const layout::ParticleRest> particles, std::uint3
 
 }  // namespace
 
-Result<FallenHair> FallenHair::create(const InputSource& from) {
-  return FallenHair(from.rest, {from.chunks.begin(), from.chunks.end()});
-}
+Result<FallenHair> FallenHair::create(const InputSource& from) { return FallenHair(from.rest, from.chunks); }
 
 Status FallenHair::check(std::span<const StrandCut> cuts, std::uint32_t least) const {
   std::vector<std::uint32_t> stay(rest_->groomStrandCount, 0);  // 0: rigid
@@ -197,8 +195,11 @@ gpu::BufferTable FallenHair::pieceTable(std::size_t chunk) const {
       {layout::kBindStrands, strands}, {layout::kBindStrandTexels, strands}, {layout::kBindReports, reports}};
 }
 
-void FallenHair::addTo(DeviceMemory& memory) const {
-  for (const Records& records : records_) memory.strands += records.strands.bytes() + records.reports.bytes();
+std::uint64_t DeviceMemory::*FallenHair::kind() const { return &DeviceMemory::strands; }
+std::uint64_t FallenHair::bytes() const {
+  std::uint64_t bytes = 0;
+  for (const Records& records : records_) bytes += records.strands.bytes() + records.reports.bytes();
+  return bytes;
 }
 
 }  // namespace ringlet

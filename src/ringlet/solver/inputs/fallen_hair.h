@@ -67,20 +67,20 @@ class FallenHair : public FrameInput {
   gpu::BufferTable bufferTable(std::size_t) const override { return {}; }
   /// What kernels of fallen hair bind in place of the strands'.
   gpu::BufferTable pieceTable(std::size_t chunk) const;
-  void addTo(DeviceMemory& memory) const override;
+  std::uint64_t bytes() const override;
 
  private:
+  std::uint64_t DeviceMemory::*kind() const override;
   // What the device has of the pieces of a chunk's strands; their particles are the chunk's.
   struct Records {
     gpu::Buffer strands, reports;
   };
-  FallenHair(const RestState& rest, std::vector<GroomChunk> chunks)
-      : rest_(&rest), chunks_(std::move(chunks)) {}
+  FallenHair(const RestState& rest, std::span<const GroomChunk> chunks) : rest_(&rest), chunks_(chunks) {}
   Status keepReports();
   Status makeRecords(gpu::Device& device, std::span<const StrandRange> ranges);
 
   const RestState* rest_;
-  std::vector<GroomChunk> chunks_;
+  std::span<const GroomChunk> chunks_;
   std::vector<std::uint32_t> kept_;  // of each strand, once some were cut
   std::vector<FallenPiece> pieces_;
   std::vector<Records> records_;  // of each chunk

@@ -13,7 +13,7 @@ namespace ringlet {
 
 Result<ForcesInput> ForcesInput::create(const InputSource& from) {
   ForcesInput self;
-  self.chunks_.assign(from.chunks.begin(), from.chunks.end());
+  self.chunks_ = from.chunks;
   self.isWritten_.assign(from.slots, false);
   if (Status status = self.prepare(from); !status) return status.error();
   return self;
@@ -52,9 +52,6 @@ gpu::BufferTable ForcesInput::bufferTable(std::size_t chunk) const {
           {layout::kBindOutsideForceTexels, staged_[chunk].seen()}};
 }
 
-void ForcesInput::addTo(DeviceMemory& memory) const {
-  memory.particles += bytes();
-  memory.frames += writtenBytes();
-}
+std::uint64_t DeviceMemory::*ForcesInput::kind() const { return &DeviceMemory::particles; }
 
 }  // namespace ringlet

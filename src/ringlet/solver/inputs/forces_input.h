@@ -24,13 +24,13 @@ class ForcesInput : public FrameInput {
   Status prepare(const InputSource& from) override;
   void writeFrame(std::size_t slot, const FrameContext&) override;
   gpu::BufferTable bufferTable(std::size_t chunk) const override;
-  void addTo(DeviceMemory& memory) const override;
 
  private:
+  std::uint64_t DeviceMemory::*kind() const override;
   ForcesInput() = default;
 
   bool areThere_ = false;
-  std::vector<GroomChunk> chunks_;           // staged, of each: vec4[particle]
+  std::span<const GroomChunk> chunks_;       // staged, of each: vec4[particle]
   std::vector<std::uint32_t> groomIndices_;  // of each particle, in device order
   std::vector<layout::vec4> now_;            // in device order
   std::vector<bool> isWritten_;              // of each slot: it has these forces

@@ -31,8 +31,9 @@ std::uint64_t FrameInput::writtenBytes() const {
   for (const StagedBuffer& staged : staged_) bytes += staged.writtenBytes();
   return bytes;
 }
+std::uint64_t DeviceMemory::*FrameInput::kind() const { return &DeviceMemory::world; }
 void FrameInput::addTo(DeviceMemory& memory) const {
-  memory.world += bytes();
+  memory.*kind() += bytes();
   memory.frames += writtenBytes();
 }
 

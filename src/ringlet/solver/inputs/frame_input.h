@@ -48,6 +48,8 @@ class FrameInput {
   virtual bool isQuiet(const FrameContext&) const { return true; }
   /// From these settings to others, between frames.
   virtual void setSettings(const Settings&, const Settings&) {}
+  /// Adapts to steps that are this share as long: velocities stay.
+  virtual void rescale(double) {}
   /// The state that later frames depend on and the host does not set anew. Fails where the device does.
   virtual Status archive(Archive&) { return {}; }
 
@@ -56,7 +58,7 @@ class FrameInput {
   /// The largest buffer that kernels read as texels, and the size of all on the device [bytes].
   virtual std::uint64_t largestBuffer() const;
   virtual std::uint64_t bytes() const;
-  virtual void addTo(DeviceMemory& memory) const;
+  void addTo(DeviceMemory& memory) const;
 
   /// Records the copies to the device with which a frame of this slot begins.
   void record(gpu::CommandList& list, std::size_t slot) const {
@@ -64,6 +66,9 @@ class FrameInput {
   }
 
  protected:
+  /// Among what `bytes` are counted.
+  virtual std::uint64_t DeviceMemory::*kind() const;
+
   FrameInput() = default;
   FrameInput(FrameInput&&) = default;
   FrameInput& operator=(FrameInput&&) = default;

@@ -15,7 +15,7 @@ namespace ringlet {
 
 Result<GoalsInput> GoalsInput::create(const InputSource& from) {
   GoalsInput self;
-  self.chunks_.assign(from.chunks.begin(), from.chunks.end());
+  self.chunks_ = from.chunks;
   self.isWritten_.assign(from.slots, false);
   self.own_ = from.goal;
   if (Status status = self.prepare(from); !status) return status.error();
@@ -85,9 +85,6 @@ gpu::BufferTable GoalsInput::bufferTable(std::size_t chunk) const {
           {kBindGoalTexels, after(chunk).seen()}};
 }
 
-void GoalsInput::addTo(DeviceMemory& memory) const {
-  memory.particles += bytes();
-  memory.frames += writtenBytes();
-}
+std::uint64_t DeviceMemory::*GoalsInput::kind() const { return &DeviceMemory::particles; }
 
 }  // namespace ringlet

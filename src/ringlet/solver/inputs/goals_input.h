@@ -30,16 +30,16 @@ class GoalsInput : public FrameInput {
   void writeFrame(std::size_t slot, const FrameContext&) override;
   void setSettings(const Settings& before, const Settings& wanted) override;
   gpu::BufferTable bufferTable(std::size_t chunk) const override;
-  void addTo(DeviceMemory& memory) const override;
 
  private:
+  std::uint64_t DeviceMemory::*kind() const override;
   GoalsInput() = default;
   void setOwn(const GoalSettings& settings);
   const StagedBuffer& before(std::size_t chunk) const { return staged_[2 * chunk]; }
   const StagedBuffer& after(std::size_t chunk) const { return staged_[2 * chunk + 1]; }
 
   bool areSet_ = false;
-  std::vector<GroomChunk> chunks_;           // staged, of each: vec4[particle] before and after a frame
+  std::span<const GroomChunk> chunks_;       // staged, of each: vec4[particle] before and after a frame
   std::vector<std::uint32_t> groomIndices_;  // of each particle, in device order
   const GroomGoal* own_ = nullptr;           // of the groom; null: none
   std::span<const GoalUnit> units_;          // of each particle, in device order; empty: no goals

@@ -60,11 +60,6 @@ bool HeadInput::isQuiet(const FrameContext& frame) const {
   return isHere(history_.oneStepEarlier) && std::ranges::all_of(frame.heads.subspan(2), isHere);
 }
 
-void HeadInput::setSettings(const Settings& before, const Settings& wanted) {
-  const double share = wanted.stepSeconds() / before.stepSeconds();
-  if (share != 1) history_.rescale(share);
-}
-
 gpu::BufferTable HeadInput::bufferTable(std::size_t) const {
   return {{layout::kBindPoses, poses()}, {layout::kBindHeadPoseTexels, poses()}};
 }

@@ -30,7 +30,7 @@ class HeadInput : public FrameInput {
   void writeFrame(std::size_t slot, const FrameContext& frame) override;
   void jump(const FrameContext& frame) override { history_.jump(frame.end()); }
   bool isQuiet(const FrameContext& frame) const override;
-  void setSettings(const Settings& before, const Settings& wanted) override;
+  void rescale(double share) override { history_.rescale(share); }
   Status archive(Archive& archive) override {
     archive.value(history_);
     return {};

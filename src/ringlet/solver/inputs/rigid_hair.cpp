@@ -57,9 +57,7 @@ void RigidHair::jump(const FrameContext& frame) {
   for (Poses& p : poses_) p.oneStepEarlier = p.now;
 }
 
-void RigidHair::setSettings(const Settings& before, const Settings& wanted) {
-  const double share = wanted.stepSeconds() / before.stepSeconds();
-  if (share == 1) return;
+void RigidHair::rescale(double share) {
   for (Poses& p : poses_) p.oneStepEarlier = interpolate(p.now, p.oneStepEarlier, share);
 }
 

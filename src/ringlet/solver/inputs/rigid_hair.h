@@ -23,8 +23,7 @@ class RigidHair : public FrameInput {
   void writeFrame(std::size_t slot, const FrameContext& frame) override;
   /// Afterwards roots are at rest relative to the head.
   void jump(const FrameContext& frame) override;
-  /// Adapts to another step length: the velocities of the roots stay.
-  void setSettings(const Settings& before, const Settings& wanted) override;
+  void rescale(double share) override;
   /// The root poses now and one step earlier.
   Status archive(Archive& archive) override {
     archive.values(std::span(poses_));

@@ -16,7 +16,7 @@ BodyPose carriedBy(Quatd headRotation, const BodyPose& root) {
 
 Result<RootsInput> RootsInput::create(const InputSource& from) {
   RootsInput self;
-  self.chunks_.assign(from.chunks.begin(), from.chunks.end());
+  self.chunks_ = from.chunks;
   self.groomStrandCount_ = from.rest.groomStrandCount;
   if (Status status = self.prepare(from); !status) return status.error();
   if (from.initial.roots.empty()) return self;
@@ -51,9 +51,7 @@ std::vector<BodyPose> RootsInput::inOrder(std::span<const BodyPose> poses) const
   return ordered;
 }
 
-void RootsInput::setSettings(const Settings& before, const Settings& wanted) {
-  const double share = wanted.stepSeconds() / before.stepSeconds();
-  if (share == 1) return;
+void RootsInput::rescale(double share) {
   for (std::size_t s = 0; s < now_.size(); ++s)
     oneStepEarlier_[s] = interpolate(now_[s], oneStepEarlier_[s], share);
 }
@@ -111,9 +109,6 @@ gpu::BufferTable RootsInput::bufferTable(std::size_t chunk) const {
           {layout::kBindRootPoseTexels, staged_[chunk].seen()}};
 }
 
-void RootsInput::addTo(DeviceMemory& memory) const {
-  memory.rootPoses += bytes();
-  memory.frames += writtenBytes();
-}
+std::uint64_t DeviceMemory::*RootsInput::kind() const { return &DeviceMemory::rootPoses; }
 
 }  // namespace ringlet

@@ -31,19 +31,18 @@ class RootsInput : public FrameInput {
   void writeFrame(std::size_t slot, const FrameContext& frame) override;
   void jump(const FrameContext& frame) override;
   bool isQuiet(const FrameContext& frame) const override;
-  /// Adapts to another step length: the velocities of the roots stay.
-  void setSettings(const Settings& before, const Settings& wanted) override;
+  void rescale(double share) override;
   Status archive(Archive& archive) override;
   gpu::BufferTable bufferTable(std::size_t chunk) const override;
-  void addTo(DeviceMemory& memory) const override;
 
  private:
+  std::uint64_t DeviceMemory::*kind() const override;
   RootsInput() = default;
   // Reorders the poses of one step from groom order to device order.
   std::vector<BodyPose> inOrder(std::span<const BodyPose> poses) const;
 
   // Staged, of each chunk: RootPose[1 + step][strand].
-  std::vector<GroomChunk> chunks_;
+  std::span<const GroomChunk> chunks_;
   bool areMoving_ = false;
   std::size_t groomStrandCount_ = 0;
   std::vector<std::uint32_t> strandInGroom_;

@@ -3,9 +3,8 @@
 // Pure: no device. Mirrored by reference/kernels/contact_step.h and volume_step.h, which keep an order of
 // their own to check this one.
 //
-//   inputs -> solve v^0 -> step: motion, grid, lists, touch -> sums, means -> solve v^1
-//                                 -> next, sums, means      -> solve v^2 ... -> move, solve v^0 of the next
-//                                 step
+//   inputs -> solve v^0 -> motion, grid, lists, touch, sums, means -> solve v^1
+//          -> next, sums, means -> solve v^2 ... -> move, and the next step's v^0 -> motion ...
 #pragma once
 
 #include <cstddef>

@@ -18,9 +18,8 @@ struct FramesInFlight {
   std::optional<Error> lost{};  // after which the state is unknown
   std::vector<FrameSlot> slots{};
 
-  FrameSlot& slotOf(std::uint64_t frame) { return slots[frame % slots.size()]; }
-  /// Of the next frame to be submitted.
-  std::size_t nextSlot() const { return submitted % slots.size(); }
+  std::size_t slotNumber(std::uint64_t frame) const { return frame % slots.size(); }
+  FrameSlot& slotOf(std::uint64_t frame) { return slots[slotNumber(frame)]; }
   bool areAllWaitedFor() const { return waited == submitted; }
   /// Positions come to the host's memory after every frame.
   bool readBack() const { return slots.front().readback.has_value(); }
