@@ -384,6 +384,7 @@ void main() {
 #ifdef RINGLET_IN_MEMORY
   runEnd = RUN + int(parameters.strandEnd >> 31);
 #endif
+  numbers = numbersOfFrame;
   findLane();
   uint strandIndex = parameters.strandBegin + placeInHead(invocationOfDispatch() / kLanes);
   // No early return: the lanes of an idle strand repeat the last one and store nothing, so that every shuffle is whole.

@@ -68,7 +68,8 @@ layout(set = 0, binding = kBindParticleTexels) uniform usamplerBuffer particleTe
 layout(set = 0, binding = kBindStrandTexels) uniform usamplerBuffer strandTexels;
 layout(set = 0, binding = kBindOutsideForceTexels) uniform usamplerBuffer forceTexels;
 layout(push_constant) uniform Parameters { StepParameters parameters; };
-layout(set = 0, binding = kBindNumbers) uniform Numbers { HairNumbers numbers; };
+layout(set = 0, binding = kBindNumbers) uniform Numbers { HairNumbers numbersOfFrame; };
+HairNumbers numbers;  // main reads them once: a driver of processors checks the bounds of every read
 
 // Of what was cut off no head carries the first particle.
 vec3 gravity() { return kFalls ? numbers.fallGravity : numbers.gravity; }

@@ -13,6 +13,7 @@
 
 #include "layout/strands.h"
 #include "reference/step.h"
+#include "ringlet/solver/diagnostics.h"
 
 namespace ringlet::parity {
 namespace {

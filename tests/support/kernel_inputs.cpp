@@ -121,7 +121,9 @@ void KernelInputs::look(const std::string& kernel, const SpirvBlock& block, std:
 void KernelInputs::expectAllSet(std::span<const InputException> exceptions) const {
   std::set<const InputException*> used;
   std::map<std::string, std::set<std::string>> rows;
-  for (const auto& [input, seen] : inputs_) {
+  for (const auto& row : inputs_) {
+    const auto& input = row.first;
+    const auto& seen = row.second;
     const std::string name = input.name(), one = fmt::format("{}[{}]", name, input.word);
     const auto exception = std::ranges::find_if(exceptions, [&](const InputException& e) {
       const std::string_view text = e.input;

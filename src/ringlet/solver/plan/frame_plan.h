@@ -64,8 +64,6 @@ struct PlannedStage {
   bool withoutBodies = false;  // a solve by the kernels that know no bodies
   Rows rows = Rows::step;      // rowsOut, rowsIn, exchange of rows
   Exchange exchange = Exchange::starts;
-
-  bool operator==(const PlannedStage&) const = default;
 };
 
 /// What the order of a frame depends on.
