@@ -49,10 +49,7 @@ std::vector<Text> textsOf(const fs::path& file) {
     const std::string found = at->str();
     for (std::sregex_iterator each(found.begin(), found.end(), part); each != end; ++each)
       whole += (*each)[1];
-    const bool isOption =
-        at->prefix().str().ends_with(".asOption(") || at->prefix().str().ends_with("asOption(\n");
-    if (!isOption)
-      texts.push_back({fs::relative(file, kLibrary), std::regex_replace(whole, std::regex(R"(\\")"), "\"")});
+    texts.push_back({fs::relative(file, kLibrary), std::regex_replace(whole, std::regex(R"(\\")"), "\"")});
   }
   return texts;
 }

@@ -86,7 +86,7 @@ TEST(Usage, WrongCommandLinesExitWith2AndSayWhatWouldBeRight) {
       {{"simulate", "a.obj", "-o", "o", "--motion", "dance"}, "only still, shake, nod, spin, glide"},
       {{"simulate", "a.obj", "-o", "o", "--integrator", "point-jacobi"}, "did you mean point_jacobi?"},
       {{"simulate", "a.obj", "-o", "o", "--backend", "cpu"}, "only gpu, reference"},
-      {{"simulate", "a.obj", "-o", "o", "--iterations", "5"}, "only --integrator point_jacobi"},
+      {{"simulate", "a.obj", "-o", "o", "--iterations", "5"}, "only point_jacobi has it"},
       {{"simulate", "a.obj", "-o", "o", "--backend", "reference", "--device", "0"}, "only --backend gpu"},
   };
   for (const Case& c : cases) {

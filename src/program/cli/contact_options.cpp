@@ -2,9 +2,8 @@
 #include "program/cli/contact_options.h"
 
 #include <CLI/CLI.hpp>
+
 #include <algorithm>
-#include <charconv>
-#include <iterator>
 #include <string>
 
 #include "program/cli/command_line.h"
@@ -14,8 +13,8 @@ namespace ringlet::program {
 namespace {
 
 constexpr const char* kGroup = "Contacts";
-// Either asks for pruning.
-constexpr const char *kMaxNeighbours = "max_neighbours", *kDropShare = "drop_share";
+constexpr const char *kOn = "contacts.on", *kMethod = "contacts.method", *kPrunes = "contacts.prune_pairs",
+                     *kMinOverlaps = "contacts.min_overlaps";
 
 // A level of pruning: none, or overlaps from 1 on.
 CLI::Validator pruneLevel() {
@@ -31,18 +30,22 @@ CLI::Validator pruneLevel() {
       "");
 }
 
-int wholeNumber(const std::string& text) {
-  int value = 0;
-  std::from_chars(text.data(), text.data() + text.size(), value);
-  return value;
+void keepState(const std::string& state, TypedKeys& typed) {
+  typed.options.push_back({kOn, state == "off" ? "false" : "true"});
+  if (state != "off") typed.options.push_back({kMethod, state == "on" ? "auto" : state});
+}
+
+void keepPruning(const std::string& level, TypedKeys& typed) {
+  typed.options.push_back({kPrunes, level == "none" ? "false" : "true"});
+  if (level != "none") typed.options.push_back({kMinOverlaps, level});
 }
 
 }  // namespace
 
-void addContactOptions(CLI::App* command, ContactChoice& choice, const std::string& defaultState) {
+void addContactOptions(CLI::App& command, TypedKeys& typed, const std::string& defaultState) {
   command
-      ->add_option(
-          "--contacts", choice.state,
+      .add_option_function<std::string>(
+          "--contacts", [&typed](const std::string& state) { keepState(state, typed); },
           "How strands push each other away: off; explicit, pair by pair; volume, all as a volume, coarse "
           "and fast; auto or on, as a volume where they are dense at rest and pair by pair elsewhere "
           "(default " +
@@ -51,44 +54,38 @@ void addContactOptions(CLI::App* command, ContactChoice& choice, const std::stri
       ->type_name("STATE")
       ->group(kGroup);
   command
-      ->add_option(
-          "--prune", choice.prune,
+      .add_option_function<std::string>(
+          "--prune", [&typed](const std::string& level) { keepPruning(level, typed); },
           "Overlapping spheres at rest from which on two strands may touch pair by pair, 1 to 1000000: more "
           "misses more and is little faster; none: all may, also those apart at rest (default none)")
       ->check(pruneLevel())
       ->type_name("N|none")
       ->group(kGroup);
-  addSettingOptions(command, contactFields(), "contacts", choice.typed, kGroup);
+  addKeyOptions(command, typed, "contacts", kGroup);
 }
 
-void checkContactOptions(const ContactChoice& choice) {
-  const char* pruning = choice.typed.contains(kMaxNeighbours) ? "--max-neighbours"
-                        : choice.typed.contains(kDropShare)   ? "--drop-share"
-                                                              : nullptr;
-  if (choice.prune == "none" && pruning)
-    throw CLI::ValidationError(pruning, "--prune none prunes nothing; leave one of the two out");
+std::optional<bool> typedContacts(const TypedKeys& typed) {
+  const auto found = std::ranges::find(typed.options, kOn, &SceneChange::key);
+  return found == typed.options.end() ? std::nullopt : std::optional(found->value == "true");
 }
 
-std::optional<ContactMethod> ContactChoice::method() const {
-  if (!state || *state == "off") return std::nullopt;
-  const auto* at = std::ranges::find(kContactMethodNames, *state);
-  return at == std::end(kContactMethodNames) ? ContactMethod::automatic
-                                             : static_cast<ContactMethod>(at - kContactMethodNames);
+void checkContactOptions(const TypedKeys& typed) {
+  const auto prunes = std::ranges::find(typed.options, kPrunes, &SceneChange::key);
+  if (prunes == typed.options.end() || prunes->value == "true") return;
+  for (const auto& [key, option] :
+       {std::pair("contacts.max_neighbours", "--max-neighbours"), {"contacts.drop_share", "--drop-share"}})
+    if (typed.has(key))
+      throw CLI::ValidationError(option, "--prune none prunes nothing; leave one of the two out");
 }
 
-void refuseContactOptions(const ContactChoice& choice, const std::string& reason) {
-  const std::string option = choice.prune ? "--prune" : typedOption(contactFields(), choice.typed);
-  if (!option.empty()) throw CLI::ValidationError(option, reason);
-}
-
-void applyContactOptions(const ContactChoice& choice, ContactSettings& settings) {
-  settings.on = choice.on().value_or(settings.on);
-  if (const auto method = choice.method()) settings.method = *method;
-  applySettingOptions(contactFields(), choice.typed, settings);
-  // Any of the three asks for pruning, also in a scene that has none.
-  if (choice.prune || choice.typed.contains(kMaxNeighbours) || choice.typed.contains(kDropShare))
-    settings.prunePairs = choice.prune != "none";
-  if (choice.prune && settings.prunePairs) settings.minOverlaps = wholeNumber(*choice.prune);
+void refuseContactOptions(const TypedKeys& typed, const std::string& reason) {
+  const auto saysHow = [](const SceneChange& change) {
+    return change.key.starts_with("contacts.") && change.key != kOn && change.key != kMethod;
+  };
+  const auto how = std::ranges::find_if(typed.options, saysHow);
+  if (how == typed.options.end()) return;
+  const bool isPruning = how->key == kPrunes || how->key == kMinOverlaps;
+  throw CLI::ValidationError(isPruning ? "--prune" : optionNamed(how->key), reason);
 }
 
 }  // namespace ringlet::program

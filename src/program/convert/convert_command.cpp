@@ -18,8 +18,8 @@
 #include "program/cli/confined_option.h"
 #include "program/cli/exit_codes.h"
 #include "program/cli/frame_range.h"
-#include "program/cli/groom_options.h"
 #include "program/cli/hair_look_options.h"
+#include "program/cli/key_options.h"
 #include "program/cli/standard_output.h"
 #include "program/cli/written_groom.h"
 #include "program/convert/convert_run.h"
@@ -77,7 +77,7 @@ struct TypedConvert {
   std::optional<double> tipWidth;
   std::optional<int> hairs;
   HairLook look;
-  GroomChoice reading;
+  TypedKeys reading;
   std::optional<std::string> up;
   std::optional<double> metresPerUnit;
   std::filesystem::path groom, scene;
@@ -112,7 +112,7 @@ std::optional<ConvertTo> kindOf(const TypedConvert& typed) {
 // The scene that IN was simulated from, where it is named.
 Result<std::optional<LoadedScene>> sceneOf(const TypedConvert& typed) {
   if (typed.scene.empty()) return std::optional<LoadedScene>();
-  const auto file = readScene(typed.scene, {}, typed.reach);
+  const auto file = readTyped(typed.scene, typed.reading, typed.reach);
   if (!file) return file.error();
   auto scene = loadScene(*file);
   if (!scene) return scene.error();
@@ -157,6 +157,8 @@ void checkOptions(const TypedConvert& typed) {
     throw CLI::ValidationError("--hairs", "only such hairs have frizz, clumps and blends; say how many");
   if (!typed.hairs && !typed.groom.empty()) throw CLI::ValidationError("--groom", "only --hairs needs it");
   if (!typed.hairs && !typed.scene.empty()) throw CLI::ValidationError("--scene", "only --hairs needs it");
+  if (typed.scene.empty() && !typed.reading.sets.empty())
+    throw CLI::ValidationError("--set", "is of a scene, and none is named here");
   if (typed.frame && !typed.frames.empty())
     throw CLI::ValidationError("--frame", "is one frame, --frames several; say one of them");
   if (typed.info) return;
@@ -380,7 +382,8 @@ int run(const TypedConvert& typed) {
   if (isGroom && (!typed.groom.empty() || !typed.scene.empty()))
     throw CLI::ValidationError(typed.groom.empty() ? "--scene" : "--groom",
                                "IN is a groom itself; only the hairs of an animation need one");
-  if (!isGroom && (typed.up || typed.metresPerUnit || (typed.reading.isMade() && typed.groom.empty())))
+  if (!isGroom &&
+      (typed.up || typed.metresPerUnit || (!typed.reading.options.empty() && typed.groom.empty())))
     throw CLI::ValidationError(
         "IN",
         "is an animation, which says its unit and axis itself; --unit, --up, --root-end and "
@@ -461,13 +464,14 @@ void addConvertCommand(CLI::App& app, int& exitCode) {
           "Of a groom: the axis that is to point up, to which a USD file is turned, Y or Z (default Y)")
       ->check(oneOf({"Y", "Z"}))
       ->type_name("AXIS");
-  addGroomOptions(*command, typed->reading);
+  addOptionsOfKeys(*command, typed->reading, {"groom.root_end", "groom.points_per_strand"});
   command->add_option("--groom", typed->groom, "The groom that IN was simulated from; for --hairs")
       ->type_name("FILE");
   command
       ->add_option("--scene", typed->scene,
                    "The scene that IN was simulated from: its groom, and its bodies, which hairs stay out of")
       ->type_name("FILE");
+  addSetOption(*command, typed->reading);
   addConfinedOption(*command, typed->reach);
   command->add_flag("--overwrite", typed->overwrite,
                     "Begin anew where OUT.partial holds frames of something that did not end");

@@ -17,7 +17,7 @@
 
 #include "program/cli/command_line.h"
 #include "program/cli/exit_codes.h"
-#include "program/cli/setting_options.h"
+#include "program/cli/key_options.h"
 #include "program/cli/standard_output.h"
 #include "ringlet/groom/generate.h"
 #include "ringlet/groom/groom_file.h"
@@ -35,9 +35,9 @@ struct TypedMake {
   Variation variation;
   SwatchParameters swatch;
   HeadParameters head;
-  TypedSettings cut;
+  TypedKeys cut;
   std::filesystem::path scalp;
-  std::string hand = "right";
+  std::string style, hand = "right";
   bool quiet = false;
 };
 
@@ -45,7 +45,10 @@ struct TypedMake {
 Result<Groom> makeTypedHead(TypedMake& typed) {
   typed.head.curl = typed.curl;
   typed.head.variation = typed.variation;
-  applySettingOptions(cutFields(), typed.cut, typed.head.cut);
+  const std::string style = typed.style.empty() ? "" : fmt::format("style = \"{}\"\n", typed.style);
+  const auto scene = parseTyped("[groom]\ngenerate = \"head\"\n" + style, "the head", typed.cut);
+  if (!scene) return scene.error();
+  typed.head.cut = scene->groom.cut;
   if (!typed.scalp.empty()) {
     auto scalp = readScalp(typed.scalp, typed.curl.metresPerUnit);
     if (!scalp) return scalp.error();
@@ -156,6 +159,7 @@ void addMakeCommand(CLI::App& app, int& exitCode) {
       ->add_option_function<std::string>(
           "--style",
           [head](const std::string& name) {
+            head->style = name;
             head->head = *headOfStyle(name);
             head->curl = head->head.curl;
           },
@@ -177,7 +181,7 @@ void addMakeCommand(CLI::App& app, int& exitCode) {
           "about the origin")
       ->type_name("FILE");
   addVariationOptions(headCommand, head->variation);
-  addSettingOptions(headCommand, cutFields(), "groom.cut", head->cut, "Cut");
+  addKeyOptions(*headCommand, head->cut, "groom.cut", "Cut");
   headCommand->footer(
       "Examples:\n  ringlet make head --strands 2000 --turns 10 --seed 7 -o head.hair\n"
       "  ringlet make head --style bob --parting right -o bob.obj");

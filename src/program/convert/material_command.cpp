@@ -15,7 +15,7 @@
 
 #include "program/cli/command_line.h"
 #include "program/cli/exit_codes.h"
-#include "program/cli/groom_options.h"
+#include "program/cli/key_options.h"
 #include "program/cli/standard_output.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/measure/groom_inspection.h"
@@ -64,7 +64,7 @@ struct TypedMaterial {
   std::filesystem::path file, groom;
   std::optional<double> metresPerUnit;
   bool list = false, json = false;
-  GroomChoice reading;
+  TypedKeys reading;
 };
 
 std::string unitText(const ParameterText& parameter) {
@@ -249,7 +249,7 @@ void addMaterialCommand(CLI::App& app, int& exitCode) {
           "Show the preset that this groom looks most like, by how many of its strands are curled, and how "
           "wide")
       ->type_name("GROOM");
-  addPointsOption(*command, typed->reading);
+  addOptionsOfKeys(*command, typed->reading, {"groom.points_per_strand"});
   command->add_option("--unit", typed->metresPerUnit, "With --suggest: metres per unit of the groom")
       ->check(between(1e-6, 1000))
       ->type_name("METRES");
@@ -265,7 +265,7 @@ void addMaterialCommand(CLI::App& app, int& exitCode) {
     if (!typed->list && typed->name.empty() && typed->groom.empty())
       throw CLI::ValidationError("MATERIAL",
                                  "name a preset or a .toml file, or use --list or --suggest GROOM");
-    if (typed->reading.isMade() && typed->groom.empty())
+    if (!typed->reading.isEmpty() && typed->groom.empty())
       throw CLI::ValidationError("--points-per-strand", "only --suggest reads a groom");
     if (typed->metresPerUnit && typed->groom.empty())
       throw CLI::ValidationError("--unit", "only --suggest reads a groom");
@@ -310,14 +310,6 @@ void addMaterialOptions(CLI::App* command, MaterialChoice& choice, const std::st
       ->type_name("NAME|FILE")
       ->group(group);
   addDialOptions(command, choice.dials, group);
-  command
-      ->add_option(
-          "--max-stretch", choice.maxStretch,
-          "Longest an edge may become, as a multiple of the groom's edge, 1 to 100 (default 1.1); 1: "
-          "inextensible")
-      ->check(between(1, 100))
-      ->type_name("S")
-      ->group(group);
 }
 
 void checkDialOptions(const DialChoice& choice, Integrator integrator) {
@@ -343,7 +335,6 @@ Status applyMaterialOptions(const MaterialChoice& choice, SceneFile& scene) {
   scene.material.dials = turned(choice.dials, scene.material.dials);
   for (std::string& sentence : unusualNumbers({}, turned(choice.dials, {})))
     scene.warnings.push_back(std::move(sentence));
-  if (choice.maxStretch) scene.simulation.maxStretch = *choice.maxStretch;
   return {};
 }
 

@@ -22,15 +22,14 @@ using DialChoice = std::vector<std::optional<double>>;
 
 /// The material as asked for on a command line.
 struct MaterialChoice {
-  std::string name;                  // a preset or a file; empty: the scene's
-  DialChoice dials;                  // each instead of the scene's own
-  std::optional<double> maxStretch;  // instead of the scene's
+  std::string name;  // a preset or a file; empty: the scene's
+  DialChoice dials;  // each instead of the scene's own
 };
 
 /// Adds an option for every dial: --hold, --bounce and so on. `choice` must outlive the command.
 void addDialOptions(CLI::App* command, DialChoice& choice, const std::string& group);
 
-/// Adds --material, the dials and --max-stretch. `choice` must outlive the command.
+/// Adds --material and the dials. `choice` must outlive the command.
 void addMaterialOptions(CLI::App* command, MaterialChoice& choice, const std::string& group);
 
 /// The dials, those of the command line turned.

@@ -17,8 +17,8 @@
 
 #include "program/cli/command_line.h"
 #include "program/cli/exit_codes.h"
-#include "program/cli/groom_options.h"
 #include "program/cli/growing_report.h"
+#include "program/cli/key_options.h"
 #include "program/cli/standard_output.h"
 #include "program/device/open_device.h"
 #include "program/device/tune_run.h"
@@ -81,7 +81,7 @@ struct TypedTune {
   std::string device;
   TuneOptions options;
   bool json = false, quiet = false;
-  GroomChoice reading;
+  TypedKeys reading;
 };
 
 nlohmann::ordered_json asJson(const ComputeDevice& device, const TuneOutcome& outcome,
@@ -219,7 +219,7 @@ void addTuneCommand(CLI::App& app, int& exitCode) {
               "A groom (.hair, .obj, .usd, .tfx, .ply, .data, .bin) whose strands' lengths to tune for: four "
               "at most that stand for all")
           ->type_name("FILE");
-  addPointsOption(*command, typed->reading);
+  addOptionsOfKeys(*command, typed->reading, {"groom.points_per_strand"});
   command
       ->add_option(
           "--particles", typed->particles,

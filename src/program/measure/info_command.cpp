@@ -15,7 +15,7 @@
 
 #include "program/cli/command_line.h"
 #include "program/cli/exit_codes.h"
-#include "program/cli/groom_options.h"
+#include "program/cli/key_options.h"
 #include "program/cli/standard_error.h"
 #include "program/cli/standard_output.h"
 #include "program/cli/written_groom.h"
@@ -80,7 +80,7 @@ struct TypedInfo {
   std::filesystem::path input, output;
   std::optional<double> metresPerUnit;
   std::optional<std::string> up;
-  GroomChoice groom;
+  TypedKeys groom;
   std::optional<int> particles;
   bool json = false;
 };
@@ -300,7 +300,7 @@ void addInfoCommand(CLI::App& app, int& exitCode) {
                    "The axis that is to point up, to which a USD file is turned, Y or Z (default Y)")
       ->check(oneOf({"Y", "Z"}))
       ->type_name("AXIS");
-  addGroomOptions(*command, typed->groom);
+  addOptionsOfKeys(*command, typed->groom, {"groom.root_end", "groom.points_per_strand"});
   command->add_option("--fix", typed->output, "File to write a mended groom to: .hair, .obj or .ply")
       ->check(endsIn({".obj", ".hair", ".ply"}))
       ->type_name("OUT");

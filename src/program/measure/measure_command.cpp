@@ -113,7 +113,7 @@ void addMeasureCommand(CLI::App& app, int& exitCode) {
   command->add_option("--up", typed->plan.up, "The files' up axis, Y or Z (default: the animation's, else Y)")
       ->check(oneOf({"Y", "Z"}))
       ->type_name("AXIS");
-  addPointsOption(*command, typed->plan.reading);
+  addOptionsOfKeys(*command, typed->plan.reading, {"groom.points_per_strand"});
   command
       ->add_option(
           "--against", typed->plan.against,

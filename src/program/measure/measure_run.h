@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "program/cli/groom_options.h"
+#include "program/cli/key_options.h"
 #include "program/measure/measure_report.h"
 #include "ringlet/base/result.h"
 
@@ -18,7 +18,7 @@ struct MeasurePlan {
   std::vector<std::filesystem::path> over;
   std::optional<double> metresPerUnit;
   std::optional<std::string> up;
-  GroomChoice reading;
+  TypedKeys reading;
 };
 
 /// What became of plan.rest in plan.other; the plot too, if there is to be one. Warnings go to standard

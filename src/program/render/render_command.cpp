@@ -124,7 +124,7 @@ Status simulate(const LoadedScene& scene, const SceneFile& file, const RenderOpt
 }
 
 Result<RenderOutcome> runScene(const RenderOptions& typed, const ComputeDevice& device, RenderPlan plan) {
-  const auto file = readScene(typed.input, {}, typed.reach);
+  const auto file = readTyped(typed.input, typed.keys, typed.reach);
   if (!file) return file.error();
   const auto scene = loadScene(*file);
   if (!scene) return scene.error();
@@ -137,7 +137,7 @@ Result<RenderOutcome> runScene(const RenderOptions& typed, const ComputeDevice& 
 
 Result<RenderOutcome> runGroom(const RenderOptions& typed, const ComputeDevice& device,
                                const RenderPlan& plan) {
-  auto groom = readGroom(typed.input, readingOf(typed.reading, typed.up == "Z"));
+  auto groom = readGroom(typed.input, readingOf(typed.keys, typed.up == "Z"));
   if (!groom) return groom.error();
   if (typed.metresPerUnit) groom->groom.metresPerUnit = *typed.metresPerUnit;
   if (auto doubt = groom->statesUp ? std::nullopt : doubtOfUp(groom->groom, typed.up == "Z"))
@@ -157,7 +157,7 @@ Result<RenderOutcome> runAnimation(const RenderOptions& typed, const ComputeDevi
   std::optional<LoadedScene> scene;
   std::optional<LoadedGroom> groom;
   if (!typed.scene.empty()) {
-    const auto file = readScene(typed.scene, {}, typed.reach);
+    const auto file = readTyped(typed.scene, typed.keys, typed.reach);
     if (!file) return file.error();
     auto loaded = loadScene(*file);
     if (!loaded) return loaded.error();
@@ -166,7 +166,7 @@ Result<RenderOutcome> runAnimation(const RenderOptions& typed, const ComputeDevi
     plan.scene = &*scene;
     plan.rest = &scene->groom;
   } else if (!typed.groom.empty()) {
-    auto read = readGroom(typed.groom, readingOf(typed.reading));
+    auto read = readGroom(typed.groom, readingOf(typed.keys));
     if (!read) return read.error();
     groom = std::move(*read);
     plan.rest = &groom->groom;

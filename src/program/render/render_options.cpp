@@ -78,9 +78,11 @@ void checkInput(const RenderOptions& options) {
     throw CLI::ValidationError("--up", "is of a groom; animations and scenes say it themselves");
   if (!isGroom && options.metresPerUnit)
     throw CLI::ValidationError("--unit", "is of a groom; animations and scenes say it themselves");
-  if (!isGroom && options.groom.empty() && options.reading.isMade())
-    throw CLI::ValidationError(options.reading.rootEnd ? "--root-end" : "--points-per-strand",
+  if (!isGroom && options.groom.empty() && !options.keys.options.empty())
+    throw CLI::ValidationError(optionNamed(options.keys.options[0].key),
                                "is of a groom's file, and none is named here");
+  if (!isSceneFile(options.input) && options.scene.empty() && !options.keys.sets.empty())
+    throw CLI::ValidationError("--set", "is of a scene, and none is named here");
   if (options.hairs == 0 && options.look.isAsked())
     throw CLI::ValidationError("--hairs", "0 are no hairs that could have frizz, clumps or blends");
   if (isGroom && (!options.frames.empty() || !options.groom.empty() || !options.scene.empty()))
@@ -179,6 +181,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
       .add_option("--scene", options.scene,
                   "The scene that IN was simulated from: its bodies, and its groom at rest")
       ->type_name("FILE");
+  addSetOption(command, options.keys);
   addConfinedOption(command, options.reach);
   command
       .add_option("--width", options.width,
@@ -251,7 +254,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
       ->check(oneOf({"Y", "Z"}))
       ->capture_default_str()
       ->type_name("AXIS");
-  addGroomOptions(command, options.reading);
+  addOptionsOfKeys(command, options.keys, {"groom.root_end", "groom.points_per_strand"});
   command.add_flag("--no-bodies", options.noBodies, "Hair alone: no bodies and no head");
   command
       .add_flag("--ground", options.ground,

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "program/cli/cli_fwd.h"
-#include "program/cli/groom_options.h"
+#include "program/cli/key_options.h"
 #include "ringlet/pictures/hair_look.h"
 #include "ringlet/pictures/render_animation.h"
 #include "ringlet/scenes/file/scene_file.h"
@@ -19,7 +19,7 @@ struct RenderOptions {
   std::string frames, size = "960x540", colour = "auburn", up = "Y", camera, ground, format = "png", device;
   std::optional<int> hairs;
   HairLook look;
-  GroomChoice reading;
+  TypedKeys keys;
   SceneReach reach = SceneReach::anywhere;
   std::optional<double> metresPerUnit, width, melanin, most;
   double redness = 0.3, azimuth = 35, elevation = 5, distance = 1, orbit = 0;

@@ -1,32 +1,25 @@
 // The options by which `ringlet simulate` chooses what it writes.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "program/cli/cli_fwd.h"
-#include "ringlet/pictures/hair_look.h"
+#include "program/cli/key_options.h"
 #include "ringlet/run/run_options.h"
 #include "ringlet/scenes/file/scene_file.h"
 
 namespace ringlet::program {
 
-/// Outputs as typed; what is left out is the scene's.
+/// Outputs as typed, beside keys of [output].
 struct OutputChoice {
-  std::string cache;  // a precision of hair.rgc
-  std::optional<double> width, tipWidth;
-  std::optional<std::string> head, prims;
-  std::optional<int> clips, hairs;
-  HairLook look;  // of these hairs
-  std::vector<std::string> values;
   std::string sheet = "drawn";    // or rendered
   std::vector<std::string> also;  // further animations
   bool usdc = false, noUsd = false, noLast = false, noSheet = false;
 };
 
-/// Adds the group of options "Output". `choice` must outlive the command.
-void addOutputOptions(CLI::App* command, OutputChoice& choice);
+/// Adds the group of options "Output". `choice` and `keys` must outlive the command.
+void addOutputOptions(CLI::App& command, OutputChoice& choice, TypedKeys& keys);
 
 /// What was typed in place of what the scene says.
 void applyOutputOptions(const OutputChoice& choice, SceneOutput& output);

@@ -79,7 +79,7 @@ struct TypedScene {
   std::string name;
   SceneOptions scene;
   DialChoice dials;
-  ContactChoice contacts;
+  TypedKeys changes;
   SimulateOptions run;
   RunNames names{.material = "scene"};
   std::string core = "on", framesOn = "smoothed";
@@ -244,10 +244,25 @@ Result<int> writeScene(const TypedScene& typed, const BuiltinScene& scene) {
   return kExitFine;
 }
 
+// Keys as typed, in place of the scene's own, by way of its file.
+Status applyKeys(const TypedKeys& keys, BuiltinScene& scene) {
+  if (keys.isEmpty()) return {};
+  const auto file = parseTyped(sceneText(sceneFileOf(scene, "groom.obj")), scene.name, keys);
+  if (!file) return file.error();
+  const LoadedGroom groom{scene.groom};
+  auto loaded = loadScene(*file, &groom);
+  if (!loaded) return loaded.error();
+  loaded->warnings.insert(loaded->warnings.begin(), scene.warnings.begin(), scene.warnings.end());
+  loaded->notes = std::move(scene.notes);
+  static_cast<LoadedScene&>(scene) = std::move(*loaded);
+  scene.seconds = scene.frameCount / scene.settings.framesPerSecond;
+  return {};
+}
+
 Result<int> runScene(TypedScene& typed) {
   auto scene = makeScene(typed.name, typed.scene);
   if (!scene) return scene.error();
-  applyContactOptions(typed.contacts, scene->settings.contacts);
+  if (Status applied = applyKeys(typed.changes, *scene); !applied) return applied.error();
   if (!typed.file.empty()) return writeScene(typed, *scene);
   SimulateOptions& options = typed.run;
   options.measuresContacts = scene->showsContacts || scene->settings.contacts.on;
@@ -334,10 +349,10 @@ void resolve(TypedScene& typed) {
   if (typed.scene.integrator == Integrator::paper) checkPaper(typed);
   checkDialOptions(typed.dials, typed.scene.integrator);
   typed.scene.dials = turned(typed.dials, {});
-  checkContactOptions(typed.contacts);
-  typed.scene.contacts = typed.contacts.on();
-  if (!typed.contacts.on().value_or(sceneShowsContacts(typed.name)) && !sceneShowsContacts(typed.name))
-    refuseContactOptions(typed.contacts, "only with --contacts on, or in a scene of hair that meets hair");
+  checkContactOptions(typed.changes);
+  typed.scene.contacts = typedContacts(typed.changes);
+  if (!typed.scene.contacts.value_or(sceneShowsContacts(typed.name)) && !sceneShowsContacts(typed.name))
+    refuseContactOptions(typed.changes, "only with --contacts on, or in a scene of hair that meets hair");
   typed.run.onReference = typed.names.backend == "reference";
   if (typed.run.onReference && !typed.run.device.empty())
     throw CLI::ValidationError("--device", "only --backend gpu has a device");
@@ -412,8 +427,9 @@ void addSceneCommand(CLI::App& app, int& exitCode) {
       ->type_name("WHICH")
       ->group(hair);
 
+  addSetOption(*command, typed->changes, hair);
   addDialOptions(command, typed->dials, "Dials");
-  addContactOptions(command, typed->contacts, "in scenes of hair that meets hair");
+  addContactOptions(*command, typed->changes, "in scenes of hair that meets hair");
 
   const char* solver = "Solver";
   command

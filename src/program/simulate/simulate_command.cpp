@@ -21,7 +21,7 @@
 #include "program/cli/confined_option.h"
 #include "program/cli/contact_options.h"
 #include "program/cli/exit_codes.h"
-#include "program/cli/groom_options.h"
+#include "program/cli/key_options.h"
 #include "program/cli/standard_output.h"
 #include "program/convert/material_command.h"
 #include "program/simulate/dump_run.h"
@@ -96,36 +96,18 @@ constexpr const char* kSimulateExitHelp =
 // The command line as typed; what is left out is the scene file's, or the default.
 struct TypedSimulate {
   std::filesystem::path input, folder;
-  std::optional<int> frames, bindFrame, stepsPerFrame, iterations, roots, skipFrames, lanes, run, subgroup;
-  std::optional<double> preRoll, framesPerSecond, unit, motionUnit, amplitude, frequency, gravity, preload;
-  std::optional<std::string> motion, joint, animation, motionUp, up, integrator, bind;
+  TypedKeys keys;
   SceneReach reach = SceneReach::anywhere;
   MaterialChoice material;
-  ContactChoice contacts;
-  GroomChoice groom;
   OutputChoice outputs;
   std::string backend = "gpu", device, kernel = "auto";
   std::vector<std::string> devices;
-  std::optional<int> checkpoint;
+  std::optional<int> lanes, run, subgroup, checkpoint;
   std::optional<std::uint64_t> dump;
   std::filesystem::path trace;
-  bool measuresContacts = false, noChebyshev = false, untuned = false, json = false, quiet = false,
-       jsonProgress = false, resume = false, overwrite = false;
+  bool measuresContacts = false, untuned = false, json = false, quiet = false, jsonProgress = false,
+       resume = false, overwrite = false;
 };
-
-template <class Value>
-void replace(Value& value, const auto& typed) {
-  if (typed) value = *typed;
-}
-
-// A groom by itself is a scene as well: one whose head shakes.
-Result<SceneFile> readInput(const TypedSimulate& typed) {
-  if (isSceneFile(typed.input)) return readScene(typed.input, {}, typed.reach);
-  SceneFile scene;
-  scene.groom.file = typed.input;
-  scene.motion.kind = "shake";
-  return scene;
-}
 
 // Why a word is neither a built-in motion nor a file of one; empty where it is.
 std::string wrongMotion(std::string word) {
@@ -139,82 +121,24 @@ std::string wrongMotion(std::string word) {
   return fmt::format("{}{} name a {} file", unknown, unknown.ends_with('?') ? " Or" : "; or", kMotionEndings);
 }
 
-// The motion as typed in place of the file's. Throws CLI11's error for what makes no sense together.
-void applyMotionOptions(const TypedSimulate& typed, SceneMotion& motion) {
-  if (typed.motion) {
-    SceneMotion other{.preRollSeconds = motion.preRollSeconds, .roots = motion.roots};
-    if (motionFileKind(*typed.motion) != MotionFileKind::none) {
-      other.file = *typed.motion;
-    } else {
-      other.kind = *typed.motion;
-    }
-    motion = std::move(other);
-  }
-  if (motion.kind.empty() && (typed.amplitude || typed.frequency)) {
-    throw CLI::ValidationError(
-        typed.amplitude ? "--amplitude" : "--frequency",
-        motion.file.empty() ? "a motion by keys has its own" : "a motion from a file has its own");
-  }
-  const MotionFileKind kind = motionFileKind(motion.file.string());
-  if (kind == MotionFileKind::none &&
-      (typed.joint || typed.motionUnit || typed.motionUp || typed.skipFrames || typed.animation)) {
-    throw CLI::ValidationError(
-        "--motion",
-        fmt::format("only a {} file has a --joint, --motion-unit, --motion-up, --skip-frames and --animation",
-                    kMotionEndings));
-  }
-  if (kind == MotionFileKind::gltf && typed.skipFrames.value_or(0) > 0)
-    throw CLI::ValidationError("--skip-frames",
-                               "a glTF animation has times and no frames; cut it where it is made");
-  if (kind == MotionFileKind::bvh && typed.animation)
-    throw CLI::ValidationError("--animation", "a .bvh file has only one");
-  replace(motion.amplitude, typed.amplitude);
-  replace(motion.frequency, typed.frequency);
-  replace(motion.joint, typed.joint);
-  replace(motion.animation, typed.animation);
-  replace(motion.metresPerUnit, typed.motionUnit);
-  replace(motion.up, typed.motionUp);
-  replace(motion.skipFrames, typed.skipFrames);
-  replace(motion.preRollSeconds, typed.preRoll);
-}
-
-// What was typed in place of what the file says.
-void applyOptions(const TypedSimulate& typed, SceneFile& scene) {
-  replace(scene.groom.metresPerUnit, typed.unit);
-  replace(scene.groom.up, typed.up);
-  applyGroomOptions(typed.groom, scene.groom);
-  replace(scene.groom.bind, typed.bind);
-  replace(scene.groom.bindFrame, typed.bindFrame);
-  applyMotionOptions(typed, scene.motion);
-
-  SceneSimulation& simulation = scene.simulation;
-  if (typed.frames) simulation.seconds.reset();
-  replace(simulation.frames, typed.frames);
-  replace(simulation.framesPerSecond, typed.framesPerSecond);
-  replace(simulation.gravity, typed.gravity);
-  replace(simulation.preload, typed.preload);
-  replace(simulation.integrator, typed.integrator);
-  replace(simulation.stepsPerFrame, typed.stepsPerFrame);
-  replace(simulation.iterations, typed.iterations);
-  replace(simulation.roots, typed.roots);
-  if (typed.noChebyshev) simulation.chebyshev = false;
-  applyContactOptions(typed.contacts, scene.contacts);
-  if (!typed.folder.empty()) scene.output.folder = typed.folder;
-  applyOutputOptions(typed.outputs, scene.output);
+// A motion as typed, in place of the scene's: all of it goes but the time before and the roots.
+SceneChange motionChange(const std::string& word) {
+  using Form = SceneChange::Form;
+  const bool isFile = motionFileKind(word) != MotionFileKind::none;
+  SceneChange change{isFile ? "motion.file" : "motion.kind", word, isFile ? Form::path : Form::text};
+  change.without = {"key"};
+  for (const auto& field : motionFields()) change.without.emplace_back(field.key);
+  return change;
 }
 
 // Throws CLI11's error for what makes no sense together.
 void checkOptions(const TypedSimulate& typed, const SceneFile& scene) {
   if (scene.output.folder.empty()) throw CLI::RequiredError("--output");
-  if (scene.simulation.integrator != "point_jacobi" && (typed.iterations || typed.noChebyshev)) {
-    throw CLI::ValidationError(typed.noChebyshev ? "--no-chebyshev" : "--iterations",
-                               "only --integrator point_jacobi has iterations");
-  }
   checkOutputs(scene.output);
   checkDialOptions(typed.material.dials, integratorNamed(scene.simulation.integrator));
-  checkContactOptions(typed.contacts);
+  checkContactOptions(typed.keys);
   if (!scene.contacts.on && !typed.measuresContacts)
-    refuseContactOptions(typed.contacts, "only with --contacts on or --measure-contacts");
+    refuseContactOptions(typed.keys, "only with --contacts on or --measure-contacts");
   if (typed.backend == "reference" &&
       (!typed.device.empty() || !typed.devices.empty() || typed.kernel != "auto")) {
     throw CLI::ValidationError(typed.kernel != "auto"   ? "--kernel"
@@ -267,9 +191,10 @@ SimulateOptions optionsOf(const TypedSimulate& typed, const SceneFile& scene) {
 
 int run(const TypedSimulate& typed) {
   if (typed.folder.empty() && !isSceneFile(typed.input)) throw CLI::RequiredError("--output");
-  auto scene = readInput(typed);
+  auto scene = readTyped(typed.input, typed.keys, typed.reach, "shake");
   if (!scene) return fail("simulate", scene.error());
-  applyOptions(typed, *scene);
+  if (!typed.folder.empty()) scene->output.folder = typed.folder;
+  applyOutputOptions(typed.outputs, scene->output);
   checkOptions(typed, *scene);
   if (Status applied = applyMaterialOptions(typed.material, *scene); !applied)
     return fail("simulate", applied.error());
@@ -311,6 +236,31 @@ int run(const TypedSimulate& typed) {
   return exitCode;
 }
 
+void addMotionOptions(CLI::App& command, TypedKeys& keys) {
+  const char* group = "Motion";
+  command
+      .add_option_function<std::string>(
+          "--motion", [&keys](const std::string& word) { keys.options.push_back(motionChange(word)); },
+          fmt::format("How the head moves: {}; or a {} file (default shake)", motionNames(), kMotionEndings))
+      ->check(CLI::Validator([](std::string& word) { return wrongMotion(word); }, "NAME"))
+      ->type_name("NAME|FILE")
+      ->group(group);
+  addKeyOptions(command, keys, "motion", group);
+}
+
+void addSimulationOptions(CLI::App& command, TypedKeys& keys) {
+  const char* group = "Simulation";
+  addKeyOptions(command, keys, "simulation", group);
+  command
+      .add_flag_callback(
+          "--no-chebyshev",
+          [&keys] {
+            keys.options.push_back({"simulation.chebyshev", "false"});
+          },
+          "point_jacobi: plain iterations, not accelerated")
+      ->group(group);
+}
+
 }  // namespace
 
 void addSimulateCommand(CLI::App& app, int& exitCode) {
@@ -332,154 +282,20 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
 
   addConfinedOption(*command, typed->reach);
 
-  // What moves.
-  const char* scene = "Scene";
-  command->add_option("--frames", typed->frames, "Frames to simulate (default 48, or a motion file's length)")
-      ->check(wholeBetween(1, kMostFrames))
-      ->type_name("N")
-      ->group(scene);
-  command
-      ->add_option(
-          "--pre-roll", typed->preRoll,
-          "Seconds the hair moves before the first frame, so that it begins settled; before its file begins, "
-          "the head glides into its first pose (default 0)")
-      ->check(between(0, 3600))
-      ->type_name("S")
-      ->group(scene);
-  command->add_option("--fps", typed->framesPerSecond, "Frames per second (default 24)")
-      ->check(between(0.001, 1e6))
-      ->type_name("F")
-      ->group(scene);
-  command
-      ->add_option(
-          "--motion", typed->motion,
-          fmt::format("How the head moves: {}; or a {} file (default shake)", motionNames(), kMotionEndings))
-      ->check(CLI::Validator([](std::string& word) { return wrongMotion(word); }, "NAME"))
-      ->type_name("NAME|FILE")
-      ->group(scene);
-  const auto ofMotionFile = [&](CLI::Option* option, const char* type) {
-    option->type_name(type)->group(scene);
-  };
-  ofMotionFile(
-      command->add_option(
-          "--joint", typed->joint,
-          "Joint of the .bvh file, node of the .gltf, .glb or .vrm, that is the head (default Head)"),
-      "NAME");
-  ofMotionFile(
-      command
-          ->add_option(
-              "--motion-unit", typed->motionUnit,
-              "Metres per unit of the motion's file (default: a .bvh person is 1.7 m tall, glTF is in "
-              "metres)")
-          ->check(between(1e-6, 1000)),
-      "METRES");
-  ofMotionFile(
-      command
-          ->add_option(
-              "--motion-up", typed->motionUp,
-              "Up axis of the motion's file, which is turned to --up: Y, Z, X, or --motion-up=-Y, -Z, -X "
-              "(default: along which a .bvh person stands; of glTF Y)")
-          ->check(oneOf(namesIn(kFileAxisNames))),
-      "AXIS");
-  ofMotionFile(
-      command
-          ->add_option("--skip-frames", typed->skipFrames,
-                       "Frames at the start of the .bvh file to leave out, as a T-pose is (default 0)")
-          ->check(wholeBetween(0, kMostFrames)),
-      "N");
-  ofMotionFile(
-      command->add_option(
-          "--animation", typed->animation,
-          "Animation of the .gltf, .glb or .vrm file, by name or number from 0 (default: the first)"),
-      "NAME");
-  command
-      ->add_option(
-          "--amplitude", typed->amplitude,
-          "Size of the motion: shake metres (default 0.1), nod radians (0.4), spin radians/s (pi), glide "
-          "metres/s (1), walk metres (0.025), turn radians, once (pi), jump metres (0.2), whip radians (1)")
-      ->check(between(-1000, 1000))
-      ->type_name("A")
-      ->group(scene);
-  command
-      ->add_option("--frequency", typed->frequency,
-                   "Shakes (default 2), nods, strides or jumps (1) per second")
-      ->check(between(0, 1000))
-      ->type_name("HZ")
-      ->group(scene);
-  command
-      ->add_option(
-          "--unit", typed->unit,
-          "Metres per unit of the groom's file (default: what a USD file states, else 0.01: centimetres)")
-      ->check(between(1e-6, 1000))
-      ->type_name("METRES")
-      ->group(scene);
-  command->add_option("--up", typed->up, "The file's up axis, Y or Z (default Y)")
-      ->check(oneOf({"Y", "Z"}))
-      ->type_name("AXIS")
-      ->group(scene);
-  addGroomOptions(*command, typed->groom, scene);
-  command
-      ->add_option(
-          "--bind", typed->bind,
-          "What the groom is bound to: head, it is in the frame of the head's joint; world, it stands where "
-          "it was modelled, whatever axes the joint has (default head)")
-      ->check(oneOf({"head", "world"}))
-      ->type_name("NAME")
-      ->group(scene);
-  command
-      ->add_option(
-          "--bind-frame", typed->bindFrame,
-          "Frame of the motion at which what is bound to the world stands so; 1 is its first pose (default "
-          "1)")
-      ->check(wholeBetween(1, kMostFrames))
-      ->type_name("N")
-      ->group(scene);
-  command->add_option("--gravity", typed->gravity, "Gravity, downwards, m/s^2 (default 9.81)")
-      ->check(between(-1000, 1000))
-      ->type_name("G")
-      ->group(scene);
-  command
-      ->add_option("--preload", typed->preload,
-                   "Share of gravity balanced in the rest pose, 0 to 1 (default 1; 0 for paper)")
-      ->check(between(0, 1))
-      ->type_name("P")
-      ->group(scene);
+  addSetOption(*command, typed->keys);
+  addKeyOptions(*command, typed->keys, "groom", "Groom");
+  addMotionOptions(*command, typed->keys);
+  addSimulationOptions(*command, typed->keys);
 
   // What hair is made of.
   addMaterialOptions(command, typed->material, "Material");
 
-  addContactOptions(command, typed->contacts, "off");
+  addContactOptions(*command, typed->keys, "off");
   command
       ->add_flag("--measure-contacts", typed->measuresContacts,
                  "Measure after every step how deep hairs are in each other and count those that cross, with "
                  "contacts on or off: some 6 us a particle and step of dense hair, on the CPU")
       ->group("Contacts");
-
-  // How it is stepped.
-  const char* solver = "Solver";
-  command->add_option("--integrator", typed->integrator, "jacobi, point_jacobi or paper (default jacobi)")
-      ->check(oneOf({std::begin(kIntegratorNames), std::end(kIntegratorNames)}))
-      ->type_name("NAME")
-      ->group(solver);
-  command
-      ->add_option(
-          "--steps-per-frame", typed->stepsPerFrame,
-          "Outer steps a frame, 1 to 340 (default: enough for this groom and material, at 24 fps from 8; 30 "
-          "for paper)")
-      ->check(wholeBetween(1, 340))
-      ->type_name("N")
-      ->group(solver);
-  command->add_option("--iterations", typed->iterations, "point_jacobi: iterations a step (default 100)")
-      ->check(wholeBetween(1, 60'000))
-      ->type_name("N")
-      ->group(solver);
-  command->add_flag("--no-chebyshev", typed->noChebyshev, "point_jacobi: plain iterations, not accelerated")
-      ->group(solver);
-  command
-      ->add_option("--roots", typed->roots, "Particles at the root that follow the head, 1 to 3 (default 1)")
-      ->check(wholeBetween(1, 3))
-      ->type_name("N")
-      ->group(solver);
 
   // Where it runs.
   const char* machine = "Machine";
@@ -528,7 +344,7 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
 
   // What is said and written.
   const char* output = "Output";
-  addOutputOptions(command, typed->outputs);
+  addOutputOptions(*command, typed->outputs, typed->keys);
   command
       ->add_option(
           "--checkpoint", typed->checkpoint,

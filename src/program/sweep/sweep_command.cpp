@@ -19,6 +19,7 @@
 #include "program/cli/command_line.h"
 #include "program/cli/confined_option.h"
 #include "program/cli/exit_codes.h"
+#include "program/cli/key_options.h"
 #include "program/cli/standard_error.h"
 #include "program/cli/standard_output.h"
 #include "program/simulate/output_options.h"
@@ -67,6 +68,7 @@ constexpr const char* kFooter =
 struct TypedSweep {
   std::filesystem::path scene;
   std::vector<std::string> vary;
+  TypedKeys keys;
   std::string only, backend = "gpu";
   SceneReach reach = SceneReach::anywhere;
   SweepOptions options;
@@ -91,9 +93,10 @@ void readPart(const std::string& typed, SweepOptions& options) {
 }
 
 // What makes no sense, or would be lost, is told before anything runs.
-std::vector<SweepAxis> readAxes(const std::vector<std::string>& typed) {
+std::vector<SweepAxis> readAxes(const TypedSweep& typed) {
   std::vector<SweepAxis> axes;
-  for (const std::string& text : typed) {
+  for (SceneChange& set : typed.keys.changes()) axes.push_back({std::move(set.key), {std::move(set.value)}});
+  for (const std::string& text : typed.vary) {
     auto axis = parseAxis(text);
     if (!axis) throw CLI::ValidationError("--vary", axis.error().message);
     axes.push_back(std::move(*axis));
@@ -131,7 +134,7 @@ void warnOfDevices(std::span<const SweepEntry> entries) {
 }
 
 int run(TypedSweep& typed) {
-  const std::vector<SweepAxis> axes = readAxes(typed.vary);
+  const std::vector<SweepAxis> axes = readAxes(typed);
   SweepOptions& options = typed.options;
   if (!typed.only.empty()) readPart(typed.only, options);
   options.onReference = typed.backend == "reference";
@@ -190,6 +193,7 @@ void addSweepCommand(CLI::App& app, int& exitCode) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("KEY=VALUES");
+  addSetOption(*command, typed->keys);
   command->add_option("-o,--output", options.folder, "Folder for the results, made if it is not there")
       ->required()
       ->type_name("DIR");

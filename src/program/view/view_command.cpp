@@ -14,9 +14,9 @@
 #include "program/cli/command_line.h"
 #include "program/cli/confined_option.h"
 #include "program/cli/exit_codes.h"
-#include "program/cli/groom_options.h"
 #include "program/cli/hair_look_options.h"
 #include "program/cli/interruption.h"
+#include "program/cli/key_options.h"
 #include "program/cli/standard_error.h"
 #include "program/cli/standard_output.h"
 #include "program/render/picture_options.h"
@@ -64,43 +64,13 @@ constexpr const char* kViewExample =
 
 struct TypedView {
   std::filesystem::path input, save, pictures, widgets;
-  std::vector<std::string> changes;
   SceneReach reach = SceneReach::anywhere;
   std::string size = "640x480", colour = "auburn", device;
   int frames = 0, samples = 2, hairs = 0;
   HairLook look;
-  GroomChoice reading;
-  std::optional<std::string> up;
-  std::optional<double> metresPerUnit;
+  TypedKeys keys;
   bool paused = false, json = false;
 };
-
-// A scene, or a groom as one.
-Result<SceneFile> sceneOf(const TypedView& typed) {
-  std::vector<SceneChange> changes;
-  if (typed.metresPerUnit) changes.push_back({"groom.unit", fmt::format("{}", *typed.metresPerUnit)});
-  if (typed.up) changes.push_back({"groom.up", *typed.up});
-  if (typed.reading.rootEnd) changes.push_back({"groom.root_end", *typed.reading.rootEnd});
-  if (typed.reading.pointsPerStrand)
-    changes.push_back({"groom.points_per_strand", fmt::format("{}", *typed.reading.pointsPerStrand)});
-  for (const std::string& change : typed.changes) {
-    const std::size_t equals = change.find('=');
-    changes.push_back({change.substr(0, equals), change.substr(equals + 1)});
-  }
-  const std::filesystem::path& input = typed.input;
-  std::error_code code;
-  if (isSceneFile(input)) return readScene(input, changes, typed.reach);
-  if (std::filesystem::is_directory(input, code))
-    return Error{fmt::format("{}: is a folder; expected the file of a scene (.toml) or of a groom ({})",
-                             typed.input.string(), kGroomEndings),
-                 Fault::input};
-  if (!isGroomFile(input))
-    return Error{
-        fmt::format("{} is neither a scene (.toml) nor a groom ({})", typed.input.string(), kGroomEndings),
-        Fault::input};
-  const std::string text = fmt::format("[groom]\nfile = {}\n", nlohmann::json(input.string()).dump());
-  return parseScene(text, typed.input.string(), {}, changes);
-}
 
 #ifdef RINGLET_HAS_WINDOW
 
@@ -195,7 +165,7 @@ void printOutcome(const TypedView& typed, const LoadedScene& scene, const view::
 
 int run(TypedView typed) {
   catchInterruption();
-  const auto file = sceneOf(typed);
+  const auto file = readTyped(typed.input, typed.keys, typed.reach, "still");
   if (!file) return fail("view", file.error());
   auto scene = loadScene(*file);
   if (!scene) return fail("view", scene.error());
@@ -213,7 +183,8 @@ int run(TypedView typed) {
 
 int run(const TypedView& typed) {
   // What it would be given is looked at all the same.
-  if (const auto file = sceneOf(typed); !file) return fail("view", file.error());
+  if (const auto file = readTyped(typed.input, typed.keys, typed.reach, "still"); !file)
+    return fail("view", file.error());
   const std::string missing = RINGLET_VIEW_MISSING;
   say("ringlet view: this program was built without a window: {}; `ringlet render` makes pictures without "
       "one\n",
@@ -224,16 +195,6 @@ int run(const TypedView& typed) {
 
 #endif
 
-CLI::Validator isChange() {
-  return CLI::Validator(
-      [](std::string& text) {
-        return text.find('=') != std::string::npos && text.front() != '='
-                   ? std::string()
-                   : fmt::format("must be KEY=VALUE, as contacts.on=true, not '{}'", text);
-      },
-      "");
-}
-
 }  // namespace
 
 void addViewCommand(CLI::App& app, int& exitCode) {
@@ -242,20 +203,9 @@ void addViewCommand(CLI::App& app, int& exitCode) {
       app.add_subcommand("view", "Opens a window in which hair moves while its numbers change");
   command->footer(kViewExample);
   command->add_option("IN", typed->input, "A scene (.toml) or a groom")->required()->type_name("PATH");
-  command
-      ->add_option("--set", typed->changes,
-                   "A key of the scene, as its file would have it: motion.kind=shake; again for others")
-      ->check(isChange())
-      ->type_name("KEY=VALUE");
-  command
-      ->add_option("--unit", typed->metresPerUnit,
-                   "Metres per unit of the groom's file (default: what a USD file states, else 0.01)")
-      ->check(between(1e-6, 1000))
-      ->type_name("METRES");
-  command->add_option("--up", typed->up, "The groom's up axis, Y or Z (default Y)")
-      ->check(oneOf({"Y", "Z"}))
-      ->type_name("AXIS");
-  addGroomOptions(*command, typed->reading);
+  addSetOption(*command, typed->keys);
+  addOptionsOfKeys(*command, typed->keys,
+                   {"groom.unit", "groom.up", "groom.root_end", "groom.points_per_strand"});
   addConfinedOption(*command, typed->reach);
   addHairLookOptions(*command, typed->look);
   command->add_option("--hairs", typed->hairs, "Hairs that follow the strands; 0: the strands themselves")

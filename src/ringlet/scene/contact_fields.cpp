@@ -38,13 +38,11 @@ std::span<const SettingField<ContactSettings>> contactFields() {
         "half the mean distance of neighbouring roots",
         "Radius of the contact spheres of a strand.",
         &C::radius,
-        {1e-6, 1}}
-          .asOption("--contact-radius"),
+        {1e-6, 1}},
       F{"fill_gaps", "", "",
         "Whether strands whose particles are farther apart than two radii get a larger radius, so that "
         "nothing passes between. Slow in dense grooms.",
-        &C::fillGaps}
-          .asOption("--fill-gaps"),
+        &C::fillGaps},
       F{"spacing",
         "1",
         "",
@@ -58,8 +56,7 @@ std::span<const SettingField<ContactSettings>> contactFields() {
         "Share of contact particles that dense strands keep for contacts pair by pair. With 0.5 a frame of "
         "dense hair takes less than half the time, and more hair passes through.",
         &C::detail,
-        {0.05, 1}}
-          .asOption("--contact-detail"),
+        {0.05, 1}},
       F{"prune_pairs", "", "", "Whether only strands that are near each other at rest may touch.",
         &C::prunePairs},
       F{"enlargement",
@@ -79,11 +76,9 @@ std::span<const SettingField<ContactSettings>> contactFields() {
         "",
         "Largest number of strands that one strand may touch, those with most overlaps first; 0: no limit.",
         &C::maxNeighbours,
-        {0, kMostOverlaps}}
-          .asOption("--max-neighbours"),
+        {0, kMostOverlaps}},
       F{"drop_share", "1", "", "Share of the remaining pairs of strands that is dropped at random.",
-        &C::dropShare, kShare}
-          .asOption("--drop-share"),
+        &C::dropShare, kShare},
       F{"seed", "", "", "Seed of drop_share and detail.", &C::seed, kSeed},
       F{"stiffness",
         "w / R",
@@ -103,7 +98,6 @@ std::span<const SettingField<ContactSettings>> contactFields() {
         "Damping of strands that slide along each other pair by pair, as a share of the damping along the "
         "normal.",
         &C::friction, kShare}
-          .asOption("--contact-friction")
           .live(),
       F{"taper",
         "",
@@ -112,8 +106,7 @@ std::span<const SettingField<ContactSettings>> contactFields() {
         "works pair by pair only.",
         &C::taper,
         {},
-        "distance, time"}
-          .asOption("--contact-taper"),
+        "distance, time"},
       F{"ramp_seconds",
         "s",
         "",
@@ -154,8 +147,7 @@ std::span<const SettingField<ContactSettings>> contactFields() {
         "four radii, or more where particles are further apart",
         "Cell size of the grid of hair that meets as a volume: the range of the coupling.",
         &C::volumeCell,
-        {1e-5, 10}}
-          .asOption("--volume-cell"),
+        {1e-5, 10}},
       F{"volume_drag",
         "1/s",
         "",
@@ -183,7 +175,6 @@ std::span<const SettingField<ContactSettings>> contactFields() {
         "Solves of a step that couple strands. More iterations are slower and lose less momentum.",
         &C::iterations,
         {1, 1000}}
-          .asOption("--contact-iterations")
           .live(),
   };
   return all;

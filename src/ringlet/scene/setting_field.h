@@ -30,17 +30,11 @@ struct SettingField {
                Vec3d Owner::*, std::optional<Vec3d> Owner::*, std::optional<Quatd> Owner::*,
                std::vector<std::string> Owner::*, ContactTaper Owner::*, ContactMethod Owner::*>
       member;
-  NumberRange allowed{};    // of a number, or of each of several
-  std::string choices{};    // of a text or a list of texts, separated by commas; "" for any
-  std::string onlyWith{};   // the kinds, shapes or sources that have it, separated by commas; "" for all
-  const char* option = "";  // of commands; "" for none
-  bool isLive = false;      // may change while hair moves (Simulation::setSettings)
+  NumberRange allowed{};   // of a number, or of each of several
+  std::string choices{};   // of a text or a list of texts, separated by commas; "" for any
+  std::string onlyWith{};  // the kinds, shapes or sources that have it, separated by commas; "" for all
+  bool isLive = false;     // may change while hair moves (Simulation::setSettings)
 
-  SettingField asOption(const char* name) const {
-    SettingField named = *this;
-    named.option = name;
-    return named;
-  }
   SettingField live() const {
     SettingField changing = *this;
     changing.isLive = true;

@@ -65,6 +65,11 @@ Status applyChange(const SceneChange& change, toml::table& file) {
     table = *below;
     if (isList) ++i;
   }
+  for (const std::string& key : change.without) table->erase(key);
+  if (change.form != SceneChange::Form::toml) {
+    table->insert_or_assign(words.back(), change.value);
+    return {};
+  }
   const auto value = parseToml("value = " + change.value, "", "a value");
   if (value && value->size() == 1 && value->contains("value")) {
     // A copy has no line.

@@ -111,8 +111,9 @@ std::optional<std::array<double, count>> numbersOf(const toml::node& node, const
 // Walks a parsed file.
 class SceneReader {
  public:
-  SceneReader(const std::string& name, const std::filesystem::path& folder, SceneReach reach)
-      : name_(name), folder_(folder), reach_(reach) {}
+  SceneReader(const std::string& name, const std::filesystem::path& folder, SceneReach reach,
+              std::span<const SceneChange> changes)
+      : name_(name), folder_(folder), reach_(reach), changes_(changes) {}
 
   Result<SceneFile> read(const toml::table& file) {
     SceneFile scene;
@@ -298,6 +299,10 @@ class SceneReader {
       problems_.addFound(node, key, "a path");
       return std::nullopt;
     }
+    const auto isTyped = [&](const SceneChange& change) {
+      return change.key == key && change.form == SceneChange::Form::path && change.value == *text;
+    };
+    if (std::ranges::any_of(changes_, isTyped)) return *text;
     std::filesystem::path path = folder_ / *text;
     if (reach_ == SceneReach::anywhere || isBelow(path, folder_)) return path;
     problems_.addFound(node, key, "a path in or below the scene's folder, to which it is confined");
@@ -551,8 +556,21 @@ class SceneReader {
     if (keys && motion.keys.empty())
       problems_.addFound(*keys, name + ".key", fmt::format("at least one key, as in [[{}.key]]", name));
     refuseForeign(table, name, motionFields(), kind ? motion.kind : path ? "file" : "keys", "a motion by");
+    if (path) refuseOtherFiles(table, name, motionFileKind(motion.file.string()), motion.skipFrames);
     if (motion.axis && !(length(*motion.axis) > 0))
       problems_.addFound(*table.get("axis"), name + ".axis", "a direction, whose length is above 0");
+  }
+
+  // Keys that only one kind of file has.
+  void refuseOtherFiles(const toml::table& table, const std::string& name, MotionFileKind kind,
+                        int skipFrames) {
+    const toml::node *skips = table.get("skip_frames"), *animation = table.get("animation");
+    if (kind == MotionFileKind::gltf && skips && skipFrames > 0)
+      problems_.add(lineOf(*skips), fmt::format("found {}.skip_frames: a glTF animation has times and no "
+                                                "frames; cut it where it is made",
+                                                name));
+    if (kind == MotionFileKind::bvh && animation)
+      problems_.add(lineOf(*animation), fmt::format("found {}.animation: a .bvh file has only one", name));
   }
 
   void readKeyframe(const toml::table& table, const std::string& name, SceneMotion& motion) {
@@ -718,6 +736,7 @@ class SceneReader {
   const std::string& name_;
   const std::filesystem::path& folder_;
   SceneReach reach_;
+  std::span<const SceneChange> changes_;
   TomlProblems problems_, missing_;  // what is missing may be there, but mistyped: it is told last
 };
 
@@ -754,7 +773,7 @@ Result<SceneFile> parseScene(std::string_view text, const std::string& name,
         "[material] (--material {0})",
         name)};
   }
-  return SceneReader(name, folder, reach).read(*file);
+  return SceneReader(name, folder, reach, changes).read(*file);
 }
 
 Result<SceneFile> readScene(const std::filesystem::path& path, std::span<const SceneChange> changes,

@@ -23,6 +23,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ringlet/base/number_range.h"
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/generate.h"
@@ -291,12 +292,14 @@ struct SceneFile {
 /// A key, as a person wants to know it.
 struct SceneKey {
   std::string table, key;
-  std::string type;      // "number", "[x, y, z]", "one of Y, Z"
-  std::string unit;      // "" for none
-  std::string range;     // "from 0 to 1 m", "" for any
-  std::string standard;  // what holds without it, in words where it is no value
-  std::string onlyWith;  // the kinds, shapes or sources that have it, "" for all
-  std::string effect;    // one sentence
+  std::string type;       // "number", "[x, y, z]", "one of Y, Z"
+  std::string unit;       // "" for none
+  std::string range;      // "from 0 to 1 m", "" for any
+  std::string standard;   // what holds without it, in words where it is no value
+  std::string onlyWith;   // the kinds, shapes or sources that have it, "" for all
+  std::string effect;     // one sentence
+  NumberRange allowed{};  // of numbers; from 0 to 0 for any
+  std::string choices{};  // of texts, separated by commas; "" for any
 };
 
 /// Every key but a material's own (rest/material_parameters.h), table by table.
@@ -308,8 +311,16 @@ bool isSceneFile(const std::filesystem::path& path);
 /// A key that is set before a scene is read, whether or not the file has it. Tables of a list have numbers
 /// from 1: "body.2.radius".
 struct SceneChange {
-  std::string key;    // with its table: "material.dials.hold"
-  std::string value;  // as a file has it, or a text without its quotes
+  enum class Form {
+    toml,  // as a file has it, or a text without its quotes
+    text,  // a text, whatever it looks like
+    path,  // relative to the working directory, and in reach wherever it is
+  };
+
+  std::string key;  // with its table: "material.dials.hold"
+  std::string value;
+  Form form = Form::toml;
+  std::vector<std::string> without{};  // keys of its table, and tables in it, that go first
 };
 
 /// Which files a scene may name.

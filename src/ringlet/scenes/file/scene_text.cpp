@@ -70,7 +70,7 @@ void addKeys(std::vector<SceneKey>& keys, const char* table, std::span<const Sce
     const std::string own = std::visit([&](auto member) { return shown(standard.*member); }, field.member);
     keys.push_back({table, field.key, typeOf(field), field.unit == std::string("1") ? "" : field.unit,
                     rangeOf(field.allowed, field.unit), *field.standard ? field.standard : own,
-                    field.onlyWith, field.effect});
+                    field.onlyWith, field.effect, field.allowed, field.choices});
   }
 }
 
