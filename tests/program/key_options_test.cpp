@@ -6,7 +6,10 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cstdlib>
+#include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "program/cli/contact_options.h"
@@ -16,6 +19,63 @@ namespace ringlet::program::key_options_test {
 namespace {
 
 constexpr const char* kTables[] = {"groom", "groom.cut", "motion", "simulation", "contacts", "output"};
+
+// Spellings that scripts rely on.
+constexpr std::pair<const char*, const char*> kSpellings[] = {
+    {"--unit", "groom.unit"},
+    {"--up", "groom.up"},
+    {"--root-end", "groom.root_end"},
+    {"--points-per-strand", "groom.points_per_strand"},
+    {"--bind", "groom.bind"},
+    {"--bind-frame", "groom.bind_frame"},
+    {"--hairline", "groom.cut.hairline"},
+    {"--parting", "groom.cut.parting"},
+    {"--fringe", "groom.cut.fringe"},
+    {"--top", "groom.cut.top"},
+    {"--sides", "groom.cut.sides"},
+    {"--back", "groom.cut.back"},
+    {"--layers", "groom.cut.layers"},
+    {"--level", "groom.cut.level"},
+    {"--straight-root", "groom.cut.straight_root"},
+    {"--clump", "groom.cut.clump"},
+    {"--amplitude", "motion.amplitude"},
+    {"--frequency", "motion.frequency"},
+    {"--joint", "motion.joint"},
+    {"--animation", "motion.animation"},
+    {"--motion-unit", "motion.unit"},
+    {"--motion-up", "motion.up"},
+    {"--skip-frames", "motion.skip_frames"},
+    {"--pre-roll", "motion.pre_roll"},
+    {"--fps", "simulation.fps"},
+    {"--frames", "simulation.frames"},
+    {"--steps-per-frame", "simulation.steps_per_frame"},
+    {"--gravity", "simulation.gravity"},
+    {"--preload", "simulation.preload"},
+    {"--max-stretch", "simulation.max_stretch"},
+    {"--roots", "simulation.roots"},
+    {"--integrator", "simulation.integrator"},
+    {"--iterations", "simulation.iterations"},
+    {"--contact-radius", "contacts.radius"},
+    {"--fill-gaps", "contacts.fill_gaps"},
+    {"--contact-detail", "contacts.detail"},
+    {"--max-neighbours", "contacts.max_neighbours"},
+    {"--drop-share", "contacts.drop_share"},
+    {"--contact-friction", "contacts.friction"},
+    {"--contact-taper", "contacts.taper"},
+    {"--volume-cell", "contacts.volume_cell"},
+    {"--contact-iterations", "contacts.iterations"},
+    {"--cache", "output.cache"},
+    {"--width", "output.width"},
+    {"--tip-width", "output.tip_width"},
+    {"--usd-values", "output.values"},
+    {"--head", "output.head"},
+    {"--clips", "output.clip_frames"},
+    {"--hairs", "output.hairs"},
+    {"--frizz", "output.frizz"},
+    {"--clump", "output.clump"},
+    {"--blend", "output.blend"},
+    {"--hair-scalp", "output.hair_scalp_file"},
+    {"--usd-prims", "output.prims"}};
 
 // Keys as a command line leaves them, or what CLI11 says of it.
 struct Parsed {
@@ -67,6 +127,15 @@ std::pair<std::string, std::string> valuesOf(const SceneKey& key) {
   return {fmt::format("{}", value), fmt::format("{}", high + std::max(1.0, 0.001 * high))};
 }
 
+// What the text of a scene says of a key.
+std::string valueIn(const std::string& text, const SceneKey& key) {
+  const std::size_t table = text.find("\n[" + key.table + "]\n"),
+                    line = text.find("\n" + key.key + " = ", table);
+  if (table == std::string::npos || line == std::string::npos) return "";
+  const std::size_t from = line + key.key.size() + 4;
+  return text.substr(from, text.find("  #", from) - from);
+}
+
 // What the text of a scene says more, line by line, keys without their values.
 std::vector<std::string> difference(const std::string& text, const std::string& other) {
   const auto linesOf = [](const std::string& all) {
@@ -116,11 +185,16 @@ TEST(KeyOptions, EachReachesItsKeyAndNoOther) {
     if (full == "contacts.max_neighbours" || full == "contacts.drop_share")
       expected.emplace_back("contacts.prune_pairs");
     EXPECT_EQ(difference(sceneText(*after), sceneText(*before)), expected);
+    if (key.type.ends_with("number")) {
+      EXPECT_EQ(std::strtod(valueIn(sceneText(*after), key).c_str(), nullptr),
+                std::strtod(value.c_str(), nullptr));
+    }
     if (!refused.empty()) {
       EXPECT_NE(parse(key.table, {option, refused}).problem, "");
     }
   }
-  EXPECT_GE(count, 53);
+  EXPECT_EQ(count, std::ssize(kSpellings));
+  for (const auto& [option, key] : kSpellings) EXPECT_EQ(optionNamed(key), option);
 }
 
 TEST(KeyOptions, NothingTypedIsNothing) {
