@@ -7,6 +7,7 @@
 
 #include "python/arrays.h"
 #include "python/poses.h"
+#include "python/setting_values.h"
 #include "ringlet/scene/force_field.h"
 
 namespace ringlet::python {
@@ -34,51 +35,52 @@ std::shared_ptr<const VelocityGrid> gridOf(const py::object& value, double cell)
   return std::make_shared<const VelocityGrid>(std::move(grid));
 }
 
-ForceField fieldOf(const py::object& position, const py::object& rotation, const py::object& axis,
-                   bool aboutAxis, double axial, double radial, double around, double core, double reach,
-                   double drag, double front, double thickness, const py::object& grid, double cell,
-                   double gridShare, const std::string& name) {
+void setNumber(const std::string& key, const py::object& value, ForceField& field) {
+  const auto* row = fieldNamed(forceFieldNumbers(), key);
+  std::vector<std::string> names{"position", "rotation", "grid", "cell", "name"};
+  for (const auto& each : forceFieldNumbers()) names.emplace_back(each.key);
+  if (!row) throw py::type_error(unknownName("number of a field", key, names));
+  std::visit([&](auto member) { fromPython(*row, key, value, field.*member); }, row->member);
+}
+
+ForceField fieldOf(const py::object& position, const py::object& rotation, const py::object& grid,
+                   double cell, const std::string& name, const py::kwargs& numbers) {
   ForceField field{.name = name,
                    .place = {vectorOf(position, "position"), rotationOf(rotation, "rotation")},
-                   .axis = vectorOf(axis, "axis"),
-                   .aboutAxis = aboutAxis,
-                   .axial = axial,
-                   .radial = radial,
-                   .around = around,
-                   .core = core,
-                   .reach = reach,
-                   .drag = drag,
-                   .front = front,
-                   .thickness = thickness,
-                   .grid = gridOf(grid, cell),
-                   .gridShare = gridShare};
+                   .grid = gridOf(grid, cell)};
+  for (const auto& [key, value] : numbers)
+    setNumber(key.cast<std::string>(), py::reinterpret_borrow<py::object>(value), field);
   demand(checkForceField(field));
   return field;
+}
+
+// "core: Distance below which ... [m], 0.02. "
+std::string numbersText() {
+  const ForceField standard;
+  std::string text;
+  for (const auto& row : forceFieldNumbers()) {
+    const std::string unit = *row.unit ? fmt::format(" [{}]", row.unit) : "";
+    const py::object value = std::visit([&](auto member) { return toPython(standard.*member); }, row.member);
+    text += fmt::format("\n{}: {} {}{}", row.key, row.effect, py::repr(value).cast<std::string>(), unit);
+  }
+  return text;
 }
 
 }  // namespace
 
 void addFields(py::module_& module) {
-  const ForceField standard;
+  const std::string doc =
+      "position [m], rotation: of its place; of a grid, of its first node. grid: velocities of air, "
+      "(x, y, z, 3), cell apart [m]. Numbers, by name, each with its default; ringlet.Error and ValueError "
+      "for one out of its range:" +
+      numbersText();
   py::class_<ForceField>(
       module, "Field",
       "A field of force, or of air that moves, in the world. Constant. Strengths are accelerations [m/s^2]; "
       "with drag they are velocities of the air [m/s].")
-      .def(
-          py::init(&fieldOf), py::kw_only(), py::arg("position") = py::make_tuple(0, 0, 0),
-          py::arg("rotation") = py::make_tuple(0, 0, 0, 1), py::arg("axis") = py::make_tuple(0, 1, 0),
-          py::arg("about_axis") = false, py::arg("axial") = 0.0, py::arg("radial") = 0.0,
-          py::arg("around") = 0.0, py::arg("core") = standard.core, py::arg("reach") = 0.0,
-          py::arg("drag") = 0.0, py::arg("front") = 0.0, py::arg("thickness") = 0.0,
-          py::arg("grid") = py::none(), py::arg("cell") = VelocityGrid{}.cell, py::arg("grid_share") = 1.0,
-          py::arg("name") = "",
-          "position [m], rotation: of its place; of a grid, of its first node. axis: in the place's axes. "
-          "about_axis: whether distances are from the axis and not from the place. axial, radial, around: "
-          "along the axis; away from the place or the axis; about the axis, right-handed. core: radial and "
-          "around fade within it [m]. reach: where the field has faded to nothing [m], 0: nowhere. drag: how "
-          "fast its air takes hair along [1/s]. front, thickness: with a thickness, only what is so near to "
-          "the distance front feels it [m]. grid: velocities of air, (x, y, z, 3), cell apart [m], times "
-          "grid_share. ringlet.Error for a number out of its range.")
+      .def(py::init(&fieldOf), py::kw_only(), py::arg("position") = py::make_tuple(0, 0, 0),
+           py::arg("rotation") = py::make_tuple(0, 0, 0, 1), py::arg("grid") = py::none(),
+           py::arg("cell") = VelocityGrid{}.cell, py::arg("name") = "", doc.c_str())
       .def_property_readonly(
           "name", [](const ForceField& field) { return field.name; }, "For messages.")
       .def(

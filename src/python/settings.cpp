@@ -12,6 +12,7 @@
 #include <type_traits>
 
 #include "python/arrays.h"
+#include "python/setting_values.h"
 #include "ringlet/scene/settings_fields.h"
 
 namespace ringlet::python {
@@ -53,20 +54,6 @@ std::vector<std::string> settingKeys() {
 }
 std::string unknownSetting(std::string_view key) { return unknownName("setting", key, settingKeys()); }
 
-// Values to Python's.
-py::object toPython(const auto&) { return py::none(); }  // types that no setting of these tables has
-py::object toPython(double value) { return py::float_(value); }
-py::object toPython(int value) { return py::int_(value); }
-py::object toPython(std::uint32_t value) { return py::int_(value); }
-py::object toPython(bool value) { return py::bool_(value); }
-py::object toPython(Vec3d v) { return py::make_tuple(v.x, v.y, v.z); }
-template <class T>
-py::object toPython(const std::optional<T>& value) {
-  return value ? toPython(*value) : py::none();
-}
-py::object toPython(ContactTaper value) { return py::str(nameOf(value)); }
-py::object toPython(ContactMethod value) { return py::str(nameOf(value)); }
-
 // The type of an attribute, as the stubs write it.
 std::string typeOf(const auto&) { return "object"; }  // types that no setting of these tables has
 std::string typeOf(double) { return "float"; }
@@ -79,56 +66,6 @@ std::string typeOf(ContactMethod) { return "str"; }
 template <class T>
 std::string typeOf(const std::optional<T>&) {
   return typeOf(T{}) + " | None";
-}
-
-template <class Field>
-void demandRange(const Field& field, double number, const std::string& key) {
-  if (field.allowed.contains(number)) return;
-  throw py::value_error(fmt::format("{} must be from {} to {}{}{}, got {}", key, field.allowed.low,
-                                    field.allowed.high, *field.unit ? " " : "", field.unit, number));
-}
-
-int wordIn(const py::object& value, const std::vector<std::string>& words, const std::string& key) {
-  if (!py::isinstance<py::str>(value))
-    throw py::type_error(fmt::format("{} takes a word, got {}", key, describe(value)));
-  const auto word = value.cast<std::string>();
-  const auto found = std::ranges::find(words, word);
-  if (found == words.end()) throw py::value_error(unknownName(key, word, words));
-  return static_cast<int>(found - words.begin());
-}
-
-// And back. Throws TypeError for another type, ValueError for what is out of range.
-template <class Field, class T>
-void fromPython(const Field& field, const std::string& key, const py::object& value, T& to) {
-  if constexpr (std::is_same_v<T, bool>) {
-    if (!PyBool_Check(value.ptr()))
-      throw py::type_error(fmt::format("{} takes True or False, got {}", key, describe(value)));
-    to = value.cast<bool>();
-  } else if constexpr (std::is_same_v<T, Vec3d>) {
-    const Vec3d vector = vectorOf(value, key);
-    for (const double number : {vector.x, vector.y, vector.z}) demandRange(field, number, key);
-    to = vector;
-  } else if constexpr (std::is_same_v<T, double>) {
-    const double number = numberOf(value, key);
-    demandRange(field, number, key);
-    to = number;
-  } else if constexpr (std::is_integral_v<T>) {
-    const long long number = wholeNumberOf(value, key);
-    demandRange(field, static_cast<double>(number), key);
-    to = static_cast<T>(number);
-  } else if constexpr (std::is_enum_v<T>) {
-    to = static_cast<T>(wordIn(value, namesIn(field.choices), key));
-  }
-}
-template <class Field, class T>
-void fromPython(const Field& field, const std::string& key, const py::object& value, std::optional<T>& to) {
-  if (value.is_none()) {
-    to.reset();
-    return;
-  }
-  T set{};
-  fromPython(field, key, value, set);
-  to = set;
 }
 
 template <class Owner>

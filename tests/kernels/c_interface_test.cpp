@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <list>
 #include <string>
 #include <vector>
 
@@ -264,18 +265,29 @@ TEST_F(CInterface, GoalsAndFieldsGiveTheSameBits) {
                     .reach = 2,
                     .drag = 7};
   ForceField wind{.drag = 4, .grid = std::make_shared<const VelocityGrid>(grid), .gridShare = 0.5};
-  const auto fieldOf = [](const ForceField& f) {
+  // Every number by its name, but for those that are the default.
+  std::list<std::vector<ringlet_number>> numbers;
+  const auto fieldOf = [&](const ForceField& f) {
     ringlet_field field = RINGLET_INIT(ringlet_field);
     field.pose = poseOf(HeadPose{f.place.position, f.place.rotation});
-    field.axis[0] = f.axis.x, field.axis[1] = f.axis.y, field.axis[2] = f.axis.z;
-    field.about_axis = f.aboutAxis;
-    field.axial = f.axial, field.radial = f.radial, field.around = f.around;
-    field.core = f.core == ForceField{}.core ? 0 : f.core;
-    field.reach = f.reach, field.drag = f.drag, field.front = f.front, field.thickness = f.thickness;
+    std::vector<ringlet_number>& own = numbers.emplace_back();
+    for (const auto& row : forceFieldNumbers()) {
+      ringlet_number number{row.key, {}};
+      if (const auto* member = std::get_if<double ForceField::*>(&row.member))
+        number.value[0] = f.**member;
+      else if (const auto* isTrue = std::get_if<bool ForceField::*>(&row.member))
+        number.value[0] = f.**isTrue;
+      else
+        number.value[0] = f.axis.x, number.value[1] = f.axis.y, number.value[2] = f.axis.z;
+      const bool isDefault =
+          std::visit([&](auto member) { return f.*member == ForceField{}.*member; }, row.member);
+      if (!isDefault) own.push_back(number);
+    }
+    field.numbers = own.data(), field.number_count = static_cast<std::uint32_t>(own.size());
     if (!f.grid) return field;
     field.velocities = &f.grid->velocities[0].x;
     std::ranges::copy(f.grid->nodes, field.nodes);
-    field.cell = f.grid->cell, field.grid_share = f.gridShare;
+    field.cell = f.grid->cell;
     return field;
   };
   std::vector<Vec3f> places = groom.points, before = groom.points;
@@ -339,8 +351,21 @@ TEST_F(CInterface, GoalsAndFieldsGiveTheSameBits) {
   bad.nodes[0] = bad.nodes[1] = 0xffffffffu;
   expectInvalid(ringlet_hair_set_fields(c.hairs[0], &bad, nullptr, 1), "more nodes");
   bad = cFirst[0];
-  bad.drag = -1;
-  EXPECT_EQ(ringlet_hair_set_fields(c.hairs[0], &bad, nullptr, 1), RINGLET_ERROR);
+  const auto expectRefused = [&](ringlet_number number, const char* says) {
+    bad.numbers = &number, bad.number_count = 1;
+    EXPECT_EQ(ringlet_hair_set_fields(c.hairs[0], &bad, nullptr, 1), RINGLET_ERROR) << says;
+    EXPECT_NE(std::string(ringlet_error_message()).find(says), std::string::npos) << ringlet_error_message();
+  };
+  expectRefused({"drag", {-1}}, "drag is -1");
+  for (const auto& [number, says] :
+       {std::pair<ringlet_number, const char*>{{"darg", {1}}, "did you mean drag?"},
+        {{nullptr, {1}}, "no number of a field"},
+        {{"about_axis", {0.5}}, "about_axis does not take 0.5"}}) {
+    bad.numbers = &number, bad.number_count = 1;
+    expectInvalid(ringlet_hair_set_fields(c.hairs[0], &bad, nullptr, 1), says);
+  }
+  bad.numbers = nullptr;
+  expectInvalid(ringlet_hair_set_fields(c.hairs[0], &bad, nullptr, 1), "1 numbers, which are NULL");
   expectInvalid(ringlet_hair_set_fields(nullptr, nullptr, nullptr, 0), "takes hair");
   expectInvalid(ringlet_hair_set_goals(nullptr, &wrong), "takes hair");
 }

@@ -16,6 +16,7 @@
 
 #include "ringlet/base/whole_file.h"
 #include "ringlet/gpu/owned.h"
+#include "ringlet/scene/force_field.h"
 #include "tests/kernels/c_handles.h"
 #include "tests/support/parity.h"
 
@@ -285,8 +286,10 @@ template <class Set>
 std::function<ringlet_result(Built&, double)> field(Set set) {
   return [set](Built& c, double value) {
     static float velocities[24] = {};
+    static std::vector<ringlet_number> numbers;
+    numbers = {{"radial", {1}}, {"drag", {1}}};
     ringlet_field one = RINGLET_INIT(ringlet_field);
-    one.radial = 1, one.drag = 1, one.velocities = velocities;
+    one.numbers = numbers.data(), one.number_count = 2, one.velocities = velocities;
     one.nodes[0] = one.nodes[1] = one.nodes[2] = 2;
     std::fill(std::begin(velocities), std::end(velocities), 0.5f);
     set(one, velocities, value);
@@ -345,17 +348,7 @@ std::vector<Number> numbers() {
        }},
       {"field.position", field([](auto& f, float*, double v) { f.pose.position[0] = v; })},
       {"field.rotation", field([](auto& f, float*, double v) { f.pose.rotation[3] = v; })},
-      {"field.axis", field([](auto& f, float*, double v) { f.axis[0] = v; })},
-      {"field.axial", field([](auto& f, float*, double v) { f.axial = v; })},
-      {"field.radial", field([](auto& f, float*, double v) { f.radial = v; })},
-      {"field.around", field([](auto& f, float*, double v) { f.around = v; })},
-      {"field.core", field([](auto& f, float*, double v) { f.core = v; })},
-      {"field.reach", field([](auto& f, float*, double v) { f.reach = v; })},
-      {"field.drag", field([](auto& f, float*, double v) { f.drag = v; })},
-      {"field.front", field([](auto& f, float*, double v) { f.front = v; })},
-      {"field.thickness", field([](auto& f, float*, double v) { f.thickness = v; })},
       {"field.cell", field([](auto& f, float*, double v) { f.cell = v; })},
-      {"field.grid_share", field([](auto& f, float*, double v) { f.grid_share = v; })},
       {"field.velocities", field([](auto&, float* velocities, double v) { velocities[13] = float(v); })},
       {"frame.step_poses.position", frame([](auto& head, auto&, auto&, double v) { head.position[1] = v; })},
       {"frame.step_poses.rotation", frame([](auto& head, auto&, auto&, double v) { head.rotation[1] = v; })},
@@ -379,6 +372,14 @@ std::vector<Number> numbers() {
          return result;
        }},
   };
+  for (const auto& row : forceFieldNumbers()) {
+    const char* key = row.key;
+    all.push_back({key, field([key](auto& f, float*, double v) {
+                     static std::vector<ringlet_number> with;
+                     with = {{"radial", {1}}, {"drag", {1}}, {key, {v}}};
+                     f.numbers = with.data(), f.number_count = 3;
+                   })});
+  }
   return all;
 }
 

@@ -426,8 +426,12 @@ def test_fields_that_do_not_fit_are_refused(device, swatch):
         windy.set_fields([ringlet.Field()] * 65)
     with pytest.raises(TypeError):
         windy.set_fields([1])
-    for numbers in ({"drag": -1}, {"axis": (0, 0, 0)}, {"core": 1e9}, {"axial": 1e9}):
-        with pytest.raises(ringlet.Error):
+    with pytest.raises(ringlet.Error, match="length of the axis"):
+        ringlet.Field(axis=(0, 0, 0))
+    with pytest.raises(TypeError, match="did you mean drag"):
+        ringlet.Field(darg=1)
+    for numbers in ({"drag": -1}, {"core": 1e9}, {"axial": 1e9}):
+        with pytest.raises(ValueError, match="must be from"):
             ringlet.Field(**numbers)
     for numbers in ({"grid": np.zeros((2, 2, 3))}, {"grid": np.zeros((2, 2, 1, 3))}, {"position": (1, 2)},
                     {"axial": np.nan, "grid": np.full((2, 2, 2, 3), np.nan)}):

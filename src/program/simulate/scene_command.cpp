@@ -368,13 +368,83 @@ void resolve(TypedScene& typed) {
   if (typed.overwrite) typed.run.leftovers = Leftovers::overwrite;
 }
 
+void addHairOptions(CLI::App& command, TypedScene& typed) {
+  const char* hair = "Hair";
+  command.add_option("--particles", typed.scene.particles, "Particles of each strand (default 64)")
+      ->check(wholeBetween(2, 65536))
+      ->type_name("N")
+      ->group(hair);
+  command
+      .add_option(
+          "--strands", typed.scene.strands,
+          "Strands side by side (default 1; release 32; flip 100, head 1500); of each swatch (curtain 50, "
+          "pile and fall 12), in whole rows")
+      ->check(wholeBetween(1, 100'000))
+      ->type_name("N")
+      ->group(hair);
+  command
+      .add_option("--preload", typed.scene.preload,
+                  "Share of gravity balanced in the rest pose, 0 to 1 (default: the scene's; 0 for paper)")
+      ->check(between(0, 1))
+      ->type_name("P")
+      ->group(hair);
+  command
+      .add_option(
+          "--bend-stiffness", typed.scene.bendStiffness,
+          "Stiffness that keeps the curl's shape, in weights of a strand, 0 to 1e5 (default: the scene's)")
+      ->check(between(0, 1e5))
+      ->type_name("W")
+      ->group(hair);
+  command.add_option("--core", typed.core, "Core spring on or off (default on)")
+      ->check(oneOf({"on", "off"}))
+      ->type_name("STATE")
+      ->group(hair);
+  command
+      .add_option("--frames-on", typed.framesOn,
+                  "Strand frames on the smoothed or the raw strand (default smoothed)")
+      ->check(oneOf({"smoothed", "raw"}))
+      ->type_name("WHICH")
+      ->group(hair);
+
+  addSetOption(command, typed.changes, hair);
+}
+
+void addSolverOptions(CLI::App& command, TypedScene& typed) {
+  const char* solver = "Solver";
+  command
+      .add_option("--integrator", typed.names.integrator, "jacobi, point_jacobi or paper (default jacobi)")
+      ->check(oneOf({std::begin(kIntegratorNames), std::end(kIntegratorNames)}))
+      ->type_name("NAME")
+      ->group(solver);
+  command
+      .add_option("--steps-per-frame", typed.scene.stepsPerFrame,
+                  "Outer steps a frame of 1/24 s, 1 to 340 (default 8; 30 for paper)")
+      ->check(wholeBetween(1, 340))
+      ->type_name("N")
+      ->group(solver);
+  command.add_option("--seconds", typed.scene.seconds, "Length of the scene (default: its own)")
+      ->check(between(0.001, 36'000))
+      ->type_name("S")
+      ->group(solver);
+  addBackendOption(command, typed.names.backend)->group(solver);
+  addDeviceOption(command, typed.run.device)->group(solver);
+  command.add_option("--subgroup", typed.subgroup, kSubgroupHelp)
+      ->check(wholeBetween(1, 128))
+      ->type_name("N")
+      ->group(solver);
+  command
+      .add_flag("--untuned", typed.untuned,
+                "Choose the kernel's shapes by the built-in model, whatever `ringlet tune` measured")
+      ->group(solver);
+}
+
 }  // namespace
 
 void addSceneCommand(CLI::App& app, int& exitCode) {
   auto typed = std::make_shared<TypedScene>();
   CLI::App* command =
       app.add_subcommand("scene", "Runs a built-in scene and measures what becomes of its hair");
-  command->footer(std::string(kSceneExample) + kContactKeysHelp + kSceneExitHelp);
+  command->footer(std::string(kSceneExample) + kSceneExitHelp);
   command->add_option("NAME", typed->name, "The scene; see --list")
       ->check(oneOf(sceneNames()))
       ->type_name("NAME");
@@ -390,74 +460,11 @@ void addSceneCommand(CLI::App& app, int& exitCode) {
   command->add_flag("--overwrite", typed->overwrite,
                     "Begin anew where DIR holds files of another run, finished or not");
 
-  const char* hair = "Hair";
-  command->add_option("--particles", typed->scene.particles, "Particles of each strand (default 64)")
-      ->check(wholeBetween(2, 65536))
-      ->type_name("N")
-      ->group(hair);
-  command
-      ->add_option(
-          "--strands", typed->scene.strands,
-          "Strands side by side (default 1; release 32; flip 100, head 1500); of each swatch (curtain 50, "
-          "pile and fall 12), in whole rows")
-      ->check(wholeBetween(1, 100'000))
-      ->type_name("N")
-      ->group(hair);
-  command
-      ->add_option("--preload", typed->scene.preload,
-                   "Share of gravity balanced in the rest pose, 0 to 1 (default: the scene's; 0 for paper)")
-      ->check(between(0, 1))
-      ->type_name("P")
-      ->group(hair);
-  command
-      ->add_option(
-          "--bend-stiffness", typed->scene.bendStiffness,
-          "Stiffness that keeps the curl's shape, in weights of a strand, 0 to 1e5 (default: the scene's)")
-      ->check(between(0, 1e5))
-      ->type_name("W")
-      ->group(hair);
-  command->add_option("--core", typed->core, "Core spring on or off (default on)")
-      ->check(oneOf({"on", "off"}))
-      ->type_name("STATE")
-      ->group(hair);
-  command
-      ->add_option("--frames-on", typed->framesOn,
-                   "Strand frames on the smoothed or the raw strand (default smoothed)")
-      ->check(oneOf({"smoothed", "raw"}))
-      ->type_name("WHICH")
-      ->group(hair);
-
-  addSetOption(*command, typed->changes, hair);
+  addHairOptions(*command, *typed);
   addDialOptions(command, typed->dials, "Dials");
   addContactOptions(*command, typed->changes, "in scenes of hair that meets hair");
 
-  const char* solver = "Solver";
-  command
-      ->add_option("--integrator", typed->names.integrator, "jacobi, point_jacobi or paper (default jacobi)")
-      ->check(oneOf({std::begin(kIntegratorNames), std::end(kIntegratorNames)}))
-      ->type_name("NAME")
-      ->group(solver);
-  command
-      ->add_option("--steps-per-frame", typed->scene.stepsPerFrame,
-                   "Outer steps a frame of 1/24 s, 1 to 340 (default 8; 30 for paper)")
-      ->check(wholeBetween(1, 340))
-      ->type_name("N")
-      ->group(solver);
-  command->add_option("--seconds", typed->scene.seconds, "Length of the scene (default: its own)")
-      ->check(between(0.001, 36'000))
-      ->type_name("S")
-      ->group(solver);
-  addBackendOption(*command, typed->names.backend)->group(solver);
-  addDeviceOption(*command, typed->run.device)->group(solver);
-  command->add_option("--subgroup", typed->subgroup, kSubgroupHelp)
-      ->check(wholeBetween(1, 128))
-      ->type_name("N")
-      ->group(solver);
-  command
-      ->add_flag("--untuned", typed->untuned,
-                 "Choose the kernel's shapes by the built-in model, whatever `ringlet tune` measured")
-      ->group(solver);
-
+  addSolverOptions(*command, *typed);
   command->add_flag("--json", typed->json, "Print one JSON object instead of the summary");
   command->add_flag("--quiet", typed->quiet, "No progress bar and no summary");
 

@@ -58,33 +58,7 @@ constexpr const char* kSimulateExample =
     "is finished; until a run ends its animation is hair.usda.partial, which is valid at all times. --cache: "
     "hair.rgc,\n"
     "which `ringlet convert` makes other files of.\n"
-    "\n"
-    "--json keys: frames strands particles rigid_strands (of strands, carried rigidly: too fine for float32, "
-    "or short and\n"
-    "in need of far more steps than the others) ms_per_frame (stepping alone, by the device's clock where it "
-    "has one)\n"
-    "frame_ms (of that the first, the median and the least frame; null where ranks step the hair) stages_ms "
-    "(per frame,\n"
-    "by stage; copy_out, of positions to the host, is not in ms_per_frame; readback and write go on while "
-    "the next frame is\n"
-    "stepped) wall_s (start, frames,\n"
-    "finish) compute_share (stepping, of wall_s.frames) waits_ms (per frame, for device and writer;\n"
-    "the host's time for submit, fence and, of positions out of the frame, copy)\n"
-    "max_edge_stretch limited_share nonfinite velocity_residual (of the velocity solve,\n"
-    "worst strand and step; measuring it takes a few per cent of the step's time; null for paper, with "
-    "contacts,\n"
-    "bodies or air and for reference) deepest_penetration_mm (of any particle in a body once it was outside, "
-    "at a\n"
-    "frame's end) inside_bodies (particles that began in one and are there still; both null without bodies) "
-    "device driver kernel tuned (shapes as `ringlet tune` measured) device_bytes (of the simulation's "
-    "buffers, at\n"
-    "the end; null for reference) cache_error_bound_m (how far points of hair.rgc may be from their "
-    "particles;\n"
-    "null without) compile_ms (making the kernels, once) backend positions_hash integrator\n"
-    "material steps_per_frame fps\n"
-    "resumed_from (frames that a run before had done) interrupted warnings notes (a preset that fits "
-    "better)\n"
-    "outputs. Times are of this run's frames.\n";
+    "\n";
 constexpr const char* kSimulateExitHelp =
     "\n"
     "Exit status: 0 done, 2 wrong usage, 3 done but some particles have no position, 130 Ctrl-C; of "
@@ -261,12 +235,105 @@ void addSimulationOptions(CLI::App& command, TypedKeys& keys) {
       ->group(group);
 }
 
+// Where it runs.
+void addMachineOptions(CLI::App& command, TypedSimulate& typed) {
+  const char* machine = "Machine";
+  addBackendOption(command, typed.backend)->group(machine);
+  CLI::Option* device = addDeviceOption(command, typed.device)->group(machine);
+  command
+      .add_option("--devices", typed.devices,
+                  "Vulkan devices among which the strands are divided, as 0,1, to the same bits as on one")
+      ->delimiter(',')
+      ->excludes(device)
+      ->type_name("D,D")
+      ->group(machine);
+  command
+      .add_option(
+          "--kernel", typed.kernel,
+          "Form of the strand kernel: lanes, whose runs are in registers; memory, whose runs are in memory, "
+          "slower and for long strands; serial, in memory and one lane a strand; or auto (default auto)")
+      ->check(oneOf({"auto", "lanes", "memory", "serial"}))
+      ->type_name("FORM")
+      ->group(machine);
+  command
+      .add_option(
+          "--lanes", typed.lanes,
+          "Lanes a strand is spread over: a power of two, the device's subgroup at most (default: chosen by "
+          "device and length)")
+      ->check(wholeBetween(1, 128))
+      ->type_name("L")
+      ->group(machine);
+  command
+      .add_option(
+          "--run", typed.run,
+          "Particles a lane holds, 4 to 16, on a CPU device to 24, and to 64 in one, two or the most lanes; "
+          "in memory to 1024 (default: chosen by device and length)")
+      ->check(wholeBetween(kShortestRun, kLongestRunInMemory))
+      ->type_name("K")
+      ->group(machine);
+
+  command.add_option("--subgroup", typed.subgroup, kSubgroupHelp)
+      ->check(wholeBetween(1, 128))
+      ->type_name("N")
+      ->group(machine);
+  command
+      .add_flag("--untuned", typed.untuned,
+                "Choose lanes and run by the built-in model, whatever `ringlet tune` measured")
+      ->group(machine);
+}
+
+// How it begins and goes on, and what is said.
+void addRunOptions(CLI::App& command, TypedSimulate& typed) {
+  const char* output = "Output";
+  command
+      .add_option(
+          "--checkpoint", typed.checkpoint,
+          "Every N frames write what a run that is killed can go on from, with --resume: DIR/checkpoint.rgk, "
+          "which goes when the run ends")
+      ->check(wholeBetween(1, kMostFrames))
+      ->type_name("N")
+      ->group(output);
+  command
+      .add_flag(
+          "--resume", typed.resume,
+          "Go on with the run in DIR from its last checkpoint, to the same bits as without a break; begin "
+          "where there is nothing to go on with. Everything else must be asked for as it was")
+      ->group(output);
+  command
+      .add_flag(
+          "--overwrite", typed.overwrite,
+          "Begin anew where DIR holds files of another run, finished or not; with --resume only where there "
+          "is no checkpoint")
+      ->group(output);
+  command
+      .add_flag("--json-progress", typed.jsonProgress,
+                "Print a line of JSON for every frame that is written: frame, frames, seconds, seconds_left")
+      ->group(output);
+  command.add_flag("--json", typed.json, "Print one JSON object instead of the summary")->group(output);
+  command.add_flag("--quiet", typed.quiet, "No progress bar and no summary")->group(output);
+}
+
+void addDebugOptions(CLI::App& command, TypedSimulate& typed) {
+  const char* output = "Output";
+  CLI::Option* dump = command.add_option("--dump", typed.dump,
+                                         "In place of a run: what the device holds after this step of it, a "
+                                         "file a buffer, into DIR/step_STEP");
+  dump->check(wholeBetween(1, 1000000000))->type_name("STEP")->group(output);
+  for (const char* ofARun : {"--devices", "--measure-contacts", "--checkpoint", "--resume", "--overwrite",
+                             "--json-progress", "--json"})
+    dump->excludes(ofARun);
+  CLI::Option* trace = command.add_option("--trace", typed.trace,
+                                          "Write when each dispatch ran, for chrome://tracing or Perfetto");
+  trace->type_name("FILE")->group(output);
+  for (const char* other : {"--devices", "--measure-contacts", "--dump"}) trace->excludes(other);
+}
+
 }  // namespace
 
 void addSimulateCommand(CLI::App& app, int& exitCode) {
   auto typed = std::make_shared<TypedSimulate>();
   CLI::App* command = app.add_subcommand("simulate", "Moves the hair of a groom and writes the animation");
-  command->footer(std::string(kSimulateExample) + kContactKeysHelp + kSimulateExitHelp);
+  command->footer(kSimulateExample + runKeysHelp() + kSimulateExitHelp);
 
   command
       ->add_option(
@@ -297,91 +364,10 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
                  "contacts on or off: some 6 us a particle and step of dense hair, on the CPU")
       ->group("Contacts");
 
-  // Where it runs.
-  const char* machine = "Machine";
-  addBackendOption(*command, typed->backend)->group(machine);
-  CLI::Option* device = addDeviceOption(*command, typed->device)->group(machine);
-  command
-      ->add_option("--devices", typed->devices,
-                   "Vulkan devices among which the strands are divided, as 0,1, to the same bits as on one")
-      ->delimiter(',')
-      ->excludes(device)
-      ->type_name("D,D")
-      ->group(machine);
-  command
-      ->add_option(
-          "--kernel", typed->kernel,
-          "Form of the strand kernel: lanes, whose runs are in registers; memory, whose runs are in memory, "
-          "slower and for long strands; serial, in memory and one lane a strand; or auto (default auto)")
-      ->check(oneOf({"auto", "lanes", "memory", "serial"}))
-      ->type_name("FORM")
-      ->group(machine);
-  command
-      ->add_option(
-          "--lanes", typed->lanes,
-          "Lanes a strand is spread over: a power of two, the device's subgroup at most (default: chosen by "
-          "device and length)")
-      ->check(wholeBetween(1, 128))
-      ->type_name("L")
-      ->group(machine);
-  command
-      ->add_option(
-          "--run", typed->run,
-          "Particles a lane holds, 4 to 16, on a CPU device to 24, and to 64 in one, two or the most lanes; "
-          "in memory to 1024 (default: chosen by device and length)")
-      ->check(wholeBetween(kShortestRun, kLongestRunInMemory))
-      ->type_name("K")
-      ->group(machine);
-
-  command->add_option("--subgroup", typed->subgroup, kSubgroupHelp)
-      ->check(wholeBetween(1, 128))
-      ->type_name("N")
-      ->group(machine);
-  command
-      ->add_flag("--untuned", typed->untuned,
-                 "Choose lanes and run by the built-in model, whatever `ringlet tune` measured")
-      ->group(machine);
-
-  // What is said and written.
-  const char* output = "Output";
+  addMachineOptions(*command, *typed);
   addOutputOptions(*command, typed->outputs, typed->keys);
-  command
-      ->add_option(
-          "--checkpoint", typed->checkpoint,
-          "Every N frames write what a run that is killed can go on from, with --resume: DIR/checkpoint.rgk, "
-          "which goes when the run ends")
-      ->check(wholeBetween(1, kMostFrames))
-      ->type_name("N")
-      ->group(output);
-  command
-      ->add_flag(
-          "--resume", typed->resume,
-          "Go on with the run in DIR from its last checkpoint, to the same bits as without a break; begin "
-          "where there is nothing to go on with. Everything else must be asked for as it was")
-      ->group(output);
-  command
-      ->add_flag(
-          "--overwrite", typed->overwrite,
-          "Begin anew where DIR holds files of another run, finished or not; with --resume only where there "
-          "is no checkpoint")
-      ->group(output);
-  command
-      ->add_flag("--json-progress", typed->jsonProgress,
-                 "Print a line of JSON for every frame that is written: frame, frames, seconds, seconds_left")
-      ->group(output);
-  command->add_flag("--json", typed->json, "Print one JSON object instead of the summary")->group(output);
-  command->add_flag("--quiet", typed->quiet, "No progress bar and no summary")->group(output);
-  CLI::Option* dump = command->add_option("--dump", typed->dump,
-                                          "In place of a run: what the device holds after this step of it, a "
-                                          "file a buffer, into DIR/step_STEP");
-  dump->check(wholeBetween(1, 1000000000))->type_name("STEP")->group(output);
-  for (const char* ofARun : {"--devices", "--measure-contacts", "--checkpoint", "--resume", "--overwrite",
-                             "--json-progress", "--json"})
-    dump->excludes(ofARun);
-  CLI::Option* trace = command->add_option("--trace", typed->trace,
-                                           "Write when each dispatch ran, for chrome://tracing or Perfetto");
-  trace->type_name("FILE")->group(output);
-  for (const char* other : {"--devices", "--measure-contacts", "--dump"}) trace->excludes(other);
+  addRunOptions(*command, *typed);
+  addDebugOptions(*command, *typed);
 
   command->callback([typed, &exitCode] { exitCode = run(*typed); });
 }

@@ -278,22 +278,24 @@ typedef struct ringlet_goals {
 /* Sets goals, which act until others are set. */
 ringlet_result ringlet_hair_set_goals(ringlet_hair* hair, const ringlet_goals* goals);
 
-/* What acts at places in the world: accelerations [m/s^2], or with drag velocities of air [m/s]
-   (scene/force_field.h). */
+/* A number by its name. `value`: the first of it, or x, y and z of what is a vector; 0 or 1 of what is true
+   or false. */
+typedef struct ringlet_number {
+  const char* name;
+  double value[3];
+} ringlet_number;
+
+/* What acts at places in the world: accelerations [m/s^2], or with drag velocities of air [m/s]. Its numbers
+   have the names of forceFieldNumbers (scene/force_field.h): axis, about_axis, axial, radial, around, core,
+   reach, drag, front, thickness and grid_share; those left out have their defaults. */
 typedef struct ringlet_field {
   size_t struct_size;
-  ringlet_pose pose;            /* in the world; of a grid its first node */
-  double axis[3];               /* in the pose's axes; 0, 0, 0 is Y */
-  int about_axis;               /* 1: distances are from the axis and not from the place */
-  double axial, radial, around; /* along the axis; away from the place or axis; about the axis */
-  double core;                  /* distance within which radial and around fade; 0 means 0.02 */
-  double reach;                 /* distance at which the field ends; 0: it does not */
-  double drag;                  /* how fast air takes hair along [1/s]; 0: there is no air */
-  double front, thickness;      /* of a shell within which the field acts, and half of it; 0: no shell */
-  const float* velocities;      /* of a grid's nodes, x, y, z, x the fastest index; NULL: no grid */
-  uint32_t nodes[3];            /* along x, y and z */
-  double cell;                  /* distance between nodes; 0 means 0.1 */
-  double grid_share;            /* factor on the grid's velocities; 0 means 1 */
+  ringlet_pose pose; /* in the world; of a grid its first node */
+  const ringlet_number* numbers;
+  uint32_t number_count;
+  const float* velocities; /* of a grid's nodes, x, y, z, x the fastest index; NULL: no grid */
+  uint32_t nodes[3];       /* along x, y and z */
+  double cell;             /* distance between nodes; 0 means 0.1 */
 } ringlet_field;
 /* Replaces all fields, until others are set (Simulation::setFields). `from`: as they are at the beginning of
    the next frame, as many; NULL: they do not change in it. */

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <type_traits>
 
-#include "ringlet/base/nearest_name.h"
 #include "ringlet/c/handles.h"
+#include "ringlet/c/setting_values.h"
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/material_presets.h"
 #include "ringlet/scene/settings_fields.h"
@@ -18,17 +18,6 @@ namespace {
 constexpr std::string_view kContacts = "contacts.", kAir = "air.", kGoal = "goal.", kVariation = "variation.",
                            kIntegrator = "integrator";
 
-Outcome unknown(std::string_view what, std::string_view name, const std::vector<std::string>& names) {
-  const std::size_t nearest = nearestName(name, names);
-  return Outcome::invalid(
-      fmt::format("there is no {} '{}'{}", what, name,
-                  nearest < names.size() ? "; did you mean " + names[nearest] + "?" : ""));
-}
-
-template <class Fields>
-void addNames(std::vector<std::string>& names, std::string_view table, const Fields& fields) {
-  for (const auto& field : fields) names.push_back(fmt::format("{}{}", table, field.key));
-}
 std::vector<std::string> settingNames() {
   std::vector<std::string> names{std::string(kIntegrator)};
   addNames(names, "", settingsFields());
@@ -37,24 +26,6 @@ std::vector<std::string> settingNames() {
   addNames(names, kGoal, goalFields());
   return names;
 }
-
-bool isWhole(double value) { return value == std::floor(value) && std::abs(value) < 2147483648.0; }
-
-// A value into a setting: nothing where the setting is of another type.
-bool put(double& to, double value) { return to = value, true; }
-bool put(std::optional<double>& to, double value) { return to = value, true; }
-bool put(int& to, double value) { return isWhole(value) && (to = static_cast<int>(value), true); }
-bool put(std::optional<int>& to, double value) {
-  return isWhole(value) && (to = static_cast<int>(value), true);
-}
-bool put(std::uint32_t& to, double value) {
-  const bool fits = value == std::floor(value) && value >= 0 && value <= 4294967295.0;
-  return fits && (to = static_cast<std::uint32_t>(value), true);
-}
-bool put(bool& to, double value) { return (value == 0 || value == 1) && (to = value == 1, true); }
-bool put(Vec3d& to, Vec3d value) { return to = value, true; }
-bool put(auto&, double) { return false; }
-bool put(auto&, Vec3d) { return false; }
 
 // What a setting takes, and the function that sets it.
 template <class T>

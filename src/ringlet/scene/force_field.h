@@ -11,6 +11,7 @@
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/scene/body.h"
+#include "ringlet/scene/setting_field.h"
 
 namespace ringlet {
 
@@ -44,6 +45,9 @@ struct ForceField {
 
 /// More are refused.
 inline constexpr std::size_t kMostForceFields = 64;
+
+/// Its numbers, but for place and grid.
+std::span<const SettingField<ForceField>> forceFieldNumbers();
 
 /// Fails, with the field's name, on a number out of its range.
 Status checkForceField(const ForceField& field);

@@ -7,37 +7,13 @@
 #include <type_traits>
 #include <utility>
 
+#include "ringlet/scene/setting_check.h"
+
 namespace ringlet {
 namespace {
 
 constexpr NumberRange kSeed{0, 4294967295.0};
 constexpr NumberRange kShare{0, 1};
-
-// What a setting holds, number by number, each with what comes behind its name.
-using Numbers = std::vector<std::pair<const char*, double>>;
-Numbers numbersOf(const auto&) { return {}; }
-Numbers numbersOf(double value) { return {{"", value}}; }
-Numbers numbersOf(int value) { return {{"", double(value)}}; }
-Numbers numbersOf(std::uint32_t value) { return {{"", double(value)}}; }
-Numbers numbersOf(Vec3d v) { return {{".x", v.x}, {".y", v.y}, {".z", v.z}}; }
-template <class T>
-Numbers numbersOf(const std::optional<T>& value) {
-  return value ? numbersOf(*value) : Numbers{};
-}
-
-template <class Owner>
-Status check(std::span<const SettingField<Owner>> fields, const Owner& settings, const char* table) {
-  for (const SettingField<Owner>& field : fields) {
-    const Numbers numbers =
-        std::visit([&](auto member) { return numbersOf(settings.*member); }, field.member);
-    for (const auto& [part, value] : numbers) {
-      if (!field.allowed.contains(value))
-        return Error{fmt::format("{}{}{} is {}; it must be from {} to {}", table, field.key, part, value,
-                                 field.allowed.low, field.allowed.high)};
-    }
-  }
-  return {};
-}
 
 template <class Owner>
 std::string differenceOf(std::span<const SettingField<Owner>> fields, const Owner& a, const Owner& b,
@@ -183,12 +159,14 @@ std::span<const SettingField<GoalSettings>> goalFields() {
   return all;
 }
 
-Status checkNumbers(const ContactSettings& settings) { return check(contactFields(), settings, "contacts."); }
+Status checkNumbers(const ContactSettings& settings) {
+  return checkRows(contactFields(), settings, "contacts.");
+}
 Status checkNumbers(const Settings& settings) {
-  if (Status status = check(settingsFields(), settings, ""); !status) return status;
+  if (Status status = checkRows(settingsFields(), settings, ""); !status) return status;
   if (Status status = checkNumbers(settings.contacts); !status) return status;
-  if (Status status = check(airFields(), settings.air, "air."); !status) return status;
-  return check(goalFields(), settings.goal, "goal.");
+  if (Status status = checkRows(airFields(), settings.air, "air."); !status) return status;
+  return checkRows(goalFields(), settings.goal, "goal.");
 }
 
 std::string fixedDifference(const Settings& a, const Settings& b) {
