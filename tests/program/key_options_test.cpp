@@ -274,6 +274,16 @@ TEST(KeyOptions, ProblemsHaveTheNamesOfOptions) {
   }
 }
 
+TEST(KeyOptions, HairsLookAsTyped) {
+  const HairLook none = hairLookOf({}),
+                 look = hairLookOf(parse("output", {"--frizz", "1", "--hair-scalp", "../a.obj"}).typed);
+  EXPECT_FALSE(none.frizz || none.clump || none.blend || !none.scalp.empty());
+  EXPECT_EQ(look.frizz, 1);
+  EXPECT_FALSE(look.clump || look.blend);
+  EXPECT_EQ(look.scalp, "../a.obj");
+  EXPECT_THROW(hairLookOf(parse("output", {"--hair-scalp", ""}).typed), CLI::ValidationError);
+}
+
 // An option that says how contacts are leaves them off or on, as the scene has them.
 TEST(KeyOptions, ContactsStayOffWhereOnlyTheirNumbersAreTyped) {
   const TypedKeys typed = parse("contacts", {"--contact-radius", "0.002"}).typed;

@@ -12,6 +12,7 @@ using Id = std::uint32_t;
 
 enum Op : std::uint32_t {
   opName = 5,
+  opExtInst = 12,
   opEntryPoint = 15,
   opFunction = 54,
   opFunctionParameter = 55,
@@ -23,6 +24,9 @@ enum Op : std::uint32_t {
   opAccessChain = 65,
   opInBoundsAccessChain = 66,
   opDecorate = 71,
+  opVectorShuffle = 79,
+  opCompositeExtract = 81,
+  opCompositeInsert = 82,
   opAtomicFirst = 227,
   opAtomicLast = 242,
   opPhi = 245,
@@ -46,6 +50,18 @@ bool hasResult(std::uint32_t op) {
   static const std::set<std::uint32_t> none{8,   62,  63,  99,  224, 225, 228, 246, 247,
                                             249, 250, 251, 252, 253, 254, 255, 317};
   return !none.contains(op);
+}
+
+// Where the operands of what has a result are numbers and no ids: from `first` on, `count` of them.
+struct Literals {
+  std::size_t first = ~std::size_t{0}, count = ~std::size_t{0};
+  bool contains(std::size_t word) const { return word >= first && word - first < count; }
+};
+Literals literalsOf(std::uint32_t op) {
+  if (op == opExtInst) return {3, 1};
+  if (op == opLoad || op == opCompositeExtract) return {.first = 3};
+  if (op == opVectorShuffle || op == opCompositeInsert) return {.first = 4};
+  return {};
 }
 
 struct Instruction {
@@ -243,7 +259,9 @@ void Analysis::step(const Function& f, const Block& block, const Instruction& on
   if (!hasResult(one.op) || one.words.size() < 2) return;
   bool differs =
       asks(one) || (one.op >= opAtomicFirst && one.op <= opAtomicLast) || (one.op == opPhi && isSkipped);
-  for (std::size_t k = 2; k < one.words.size(); ++k) differs = differs || differs_.contains(one.words[k]);
+  const Literals literals = literalsOf(one.op);
+  for (std::size_t k = 2; k < one.words.size(); ++k)
+    differs = differs || (!literals.contains(k) && differs_.contains(one.words[k]));
   if (one.op == opLoad) differs = differs || differs_.contains(rootOf(one.words[2]));
   if (differs) add(differs_, one.words[1]);
 }

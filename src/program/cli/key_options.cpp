@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <functional>
+#include <optional>
 #include <system_error>
+#include <utility>
 
 #include "program/cli/command_line.h"
 #include "ringlet/base/assert.h"
@@ -172,8 +174,9 @@ void addOption(CLI::App& command, TypedKeys& typed, const KeyOption& row, const 
   if (!group.empty()) option->group(group);
 }
 
-// The option that a message is of, and the message by the names of options.
-std::pair<std::string, std::string> byOption(std::string message, const TypedKeys& typed) {
+// What a scene says of keys, by the names of the options that said them.
+CLI::ValidationError usageError(const Error& error, const TypedKeys& typed) {
+  std::string message = error.message;
   std::string first = typed.options.empty() ? "--set" : optionNamed(typed.options.front().key);
   for (const SceneChange& change : typed.options) {
     const std::string option = optionNamed(change.key);
@@ -183,7 +186,7 @@ std::pair<std::string, std::string> byOption(std::string message, const TypedKey
     message.replace(at, found.size(), "found " + option);
     first = option;
   }
-  return {first, message};
+  return CLI::ValidationError(first, message);
 }
 
 // What a table's presence switches on, an option of its keys does not.
@@ -204,8 +207,15 @@ Result<SceneFile> readWith(
   const auto untyped = [&] { return read({}); };
   auto scene = read(settled(typed, untyped));
   if (scene || typed.isEmpty() || !untyped()) return scene;
-  const auto [option, message] = byOption(scene.error().message, typed);
-  throw CLI::ValidationError(option, message);
+  throw usageError(scene.error(), typed);
+}
+
+// The options alone, as a scene has them.
+SceneFile sceneOfOptions(const TypedKeys& typed, bool upIsZ = false) {
+  const std::string text = fmt::format("[groom]\nfile = \"-\"\nup = \"{}\"\n", upIsZ ? 'Z' : 'Y');
+  auto scene = parseScene(text, "the options", {}, typed.options);
+  if (!scene) throw usageError(scene.error(), typed);
+  return std::move(*scene);
 }
 
 CLI::Validator isChange() {
@@ -222,6 +232,13 @@ CLI::Validator isChange() {
 
 bool TypedKeys::has(std::string_view key) const {
   return std::ranges::find(options, key, &SceneChange::key) != options.end();
+}
+
+std::string TypedKeys::optionOf(std::string_view table) const {
+  for (const SceneChange& change : options)
+    if (std::string_view(change.key).substr(0, change.key.rfind('.')) == table)
+      return optionNamed(change.key);
+  return "";
 }
 
 std::vector<SceneChange> TypedKeys::changes() const {
@@ -289,11 +306,24 @@ Result<SceneFile> parseTyped(std::string_view text, const std::string& name, con
       typed, [&](const std::vector<SceneChange>& changes) { return parseScene(text, name, {}, changes); });
 }
 
+void addHairLookOptions(CLI::App& command, TypedKeys& typed) {
+  addOptionsOfKeys(command, typed,
+                   {"output.frizz", "output.clump", "output.blend", "output.hair_scalp_file"});
+}
+
+HairLook hairLookOf(const TypedKeys& typed) {
+  const SceneFile scene = sceneOfOptions(typed);
+  const auto ifTyped = [&](std::string_view key, double value) {
+    return typed.has(key) ? std::optional(value) : std::nullopt;
+  };
+  return {.frizz = ifTyped("output.frizz", scene.output.frizz),
+          .clump = ifTyped("output.clump", scene.output.clump),
+          .blend = ifTyped("output.blend", scene.output.blend),
+          .scalp = scene.output.hairScalpFile};
+}
+
 GroomReading readingOf(const TypedKeys& typed, bool upIsZ) {
-  const std::string text = fmt::format("[groom]\nfile = \"-\"\nup = \"{}\"\n", upIsZ ? 'Z' : 'Y');
-  const auto scene = parseTyped(text, "the groom", {typed.options, {}});
-  RINGLET_ASSERT(scene, "checked options of a groom are refused");
-  return ringlet::readingOf(scene->groom);
+  return ringlet::readingOf(sceneOfOptions(typed, upIsZ).groom);
 }
 
 }  // namespace ringlet::program

@@ -9,6 +9,7 @@
 #include "program/cli/cli_fwd.h"
 #include "ringlet/base/result.h"
 #include "ringlet/groom/loaded_groom.h"
+#include "ringlet/pictures/hair_look.h"
 #include "ringlet/scenes/file/scene_file.h"
 
 namespace ringlet::program {
@@ -20,6 +21,8 @@ struct TypedKeys {
 
   /// Whether an option, not --set, says this key ("simulation.gravity").
   bool has(std::string_view key) const;
+  /// The first option that was typed of a key of this table; "" for none.
+  std::string optionOf(std::string_view table) const;
   bool isEmpty() const { return options.empty() && sets.empty(); }
   std::vector<SceneChange> changes() const;
 };
@@ -46,6 +49,11 @@ Result<SceneFile> readTyped(const std::filesystem::path& input, const TypedKeys&
 
 /// The same from a scene's text.
 Result<SceneFile> parseTyped(std::string_view text, const std::string& name, const TypedKeys& typed);
+
+/// Adds the options of how hairs that follow strands differ from them.
+void addHairLookOptions(CLI::App& command, TypedKeys& typed);
+/// What was typed of them. Throws CLI11's error for what a scene refuses, as an empty path.
+HairLook hairLookOf(const TypedKeys& typed);
 
 /// How a groom's file is read, options of [groom] as typed.
 GroomReading readingOf(const TypedKeys& typed, bool upIsZ = false);

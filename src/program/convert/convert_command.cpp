@@ -18,7 +18,6 @@
 #include "program/cli/confined_option.h"
 #include "program/cli/exit_codes.h"
 #include "program/cli/frame_range.h"
-#include "program/cli/hair_look_options.h"
 #include "program/cli/key_options.h"
 #include "program/cli/standard_output.h"
 #include "program/cli/written_groom.h"
@@ -76,8 +75,7 @@ struct TypedConvert {
   std::optional<int> clips;
   std::optional<double> tipWidth;
   std::optional<int> hairs;
-  HairLook look;
-  TypedKeys reading;
+  TypedKeys keys;
   std::optional<std::string> up;
   std::optional<double> metresPerUnit;
   std::filesystem::path groom, scene;
@@ -112,7 +110,7 @@ std::optional<ConvertTo> kindOf(const TypedConvert& typed) {
 // The scene that IN was simulated from, where it is named.
 Result<std::optional<LoadedScene>> sceneOf(const TypedConvert& typed) {
   if (typed.scene.empty()) return std::optional<LoadedScene>();
-  const auto file = readTyped(typed.scene, typed.reading, typed.reach);
+  const auto file = readTyped(typed.scene, typed.keys, typed.reach);
   if (!file) return file.error();
   auto scene = loadScene(*file);
   if (!scene) return scene.error();
@@ -123,10 +121,11 @@ Result<std::optional<LoadedScene>> sceneOf(const TypedConvert& typed) {
 Result<std::optional<FullHair>> fullHairOf(const TypedConvert& typed, const Groom& rest, double metresPerUnit,
                                            const CutList& cuts = {}, const LoadedScene* scene = nullptr) {
   if (!typed.hairs) return std::optional<FullHair>();
-  const auto ground = scene ? hairGroundOf(*scene, typed.look) : hairGroundOf(typed.look, metresPerUnit);
+  const HairLook look = hairLookOf(typed.keys);
+  const auto ground = scene ? hairGroundOf(*scene, look) : hairGroundOf(look, metresPerUnit);
   if (!ground) return ground.error();
-  auto hair = FullHair::make(rest, metresPerUnit, typed.look.of({.hairCount = *typed.hairs}),
-                             followByReference(), scene ? scene->bodies : std::vector<Body>(), *ground, cuts);
+  auto hair = FullHair::make(rest, metresPerUnit, look.of({.hairCount = *typed.hairs}), followByReference(),
+                             scene ? scene->bodies : std::vector<Body>(), *ground, cuts);
   if (!hair) return hair.error();
   return std::optional(std::move(*hair));
 }
@@ -136,7 +135,7 @@ Result<std::optional<FullHair>> fullHairOf(const TypedConvert& typed, double met
                                            const CutList& cuts, const std::optional<LoadedScene>& scene) {
   if (!typed.hairs) return std::optional<FullHair>();
   if (scene) return fullHairOf(typed, scene->groom, metresPerUnit, cuts, &*scene);
-  const auto rest = readGroom(typed.groom, readingOf(typed.reading));
+  const auto rest = readGroom(typed.groom, readingOf(typed.keys));
   if (!rest) return rest.error();
   return fullHairOf(typed, rest->groom, metresPerUnit, cuts);
 }
@@ -153,11 +152,11 @@ void checkOptions(const TypedConvert& typed) {
         "--hairs", "name with --groom the groom that IN was simulated from, or with --scene the scene");
   if (!typed.groom.empty() && !typed.scene.empty())
     throw CLI::ValidationError("--groom", "the scene names its groom; say one of --scene and --groom");
-  if (!typed.hairs && typed.look.isAsked())
+  if (!typed.hairs && !typed.keys.optionOf("output").empty())
     throw CLI::ValidationError("--hairs", "only such hairs have frizz, clumps and blends; say how many");
   if (!typed.hairs && !typed.groom.empty()) throw CLI::ValidationError("--groom", "only --hairs needs it");
   if (!typed.hairs && !typed.scene.empty()) throw CLI::ValidationError("--scene", "only --hairs needs it");
-  if (typed.scene.empty() && !typed.reading.sets.empty())
+  if (typed.scene.empty() && !typed.keys.sets.empty())
     throw CLI::ValidationError("--set", "is of a scene, and none is named here");
   if (typed.frame && !typed.frames.empty())
     throw CLI::ValidationError("--frame", "is one frame, --frames several; say one of them");
@@ -293,7 +292,7 @@ void printOutcome(const TypedConvert& typed, const Groom& groom, const std::vect
 Status runGroomConvert(const TypedConvert& typed) {
   if (typed.info)
     return Error{fmt::format("{} is a groom; `ringlet info` says what is in it", typed.input.string())};
-  auto loaded = readGroom(typed.input, readingOf(typed.reading, typed.up == "Z"));
+  auto loaded = readGroom(typed.input, readingOf(typed.keys, typed.up == "Z"));
   if (!loaded) return loaded.error();
   if (typed.metresPerUnit) loaded->groom.metresPerUnit = *typed.metresPerUnit;
   for (const std::string& warning : loaded->warnings) say("ringlet convert: warning: {}\n", warning);
@@ -383,7 +382,7 @@ int run(const TypedConvert& typed) {
     throw CLI::ValidationError(typed.groom.empty() ? "--scene" : "--groom",
                                "IN is a groom itself; only the hairs of an animation need one");
   if (!isGroom &&
-      (typed.up || typed.metresPerUnit || (!typed.reading.options.empty() && typed.groom.empty())))
+      (typed.up || typed.metresPerUnit || (!typed.keys.optionOf("groom").empty() && typed.groom.empty())))
     throw CLI::ValidationError(
         "IN",
         "is an animation, which says its unit and axis itself; --unit, --up, --root-end and "
@@ -452,7 +451,7 @@ void addConvertCommand(CLI::App& app, int& exitCode) {
           "one sees as locks")
       ->check(wholeBetween(1, 10'000'000))
       ->type_name("N");
-  addHairLookOptions(*command, typed->look);
+  addHairLookOptions(*command, typed->keys);
   command
       ->add_option("--unit", typed->metresPerUnit,
                    "Of a groom: metres per unit of its file (default: what a USD file states, else 0.01)")
@@ -464,14 +463,14 @@ void addConvertCommand(CLI::App& app, int& exitCode) {
           "Of a groom: the axis that is to point up, to which a USD file is turned, Y or Z (default Y)")
       ->check(oneOf({"Y", "Z"}))
       ->type_name("AXIS");
-  addOptionsOfKeys(*command, typed->reading, {"groom.root_end", "groom.points_per_strand"});
+  addOptionsOfKeys(*command, typed->keys, {"groom.root_end", "groom.points_per_strand"});
   command->add_option("--groom", typed->groom, "The groom that IN was simulated from; for --hairs")
       ->type_name("FILE");
   command
       ->add_option("--scene", typed->scene,
                    "The scene that IN was simulated from: its groom, and its bodies, which hairs stay out of")
       ->type_name("FILE");
-  addSetOption(*command, typed->reading);
+  addSetOption(*command, typed->keys);
   addConfinedOption(*command, typed->reach);
   command->add_flag("--overwrite", typed->overwrite,
                     "Begin anew where OUT.partial holds frames of something that did not end");

@@ -13,7 +13,6 @@
 #include "program/cli/command_line.h"
 #include "program/cli/confined_option.h"
 #include "program/cli/frame_range.h"
-#include "program/cli/hair_look_options.h"
 #include "program/render/picture_options.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/output/animation_reader.h"
@@ -78,12 +77,12 @@ void checkInput(const RenderOptions& options) {
     throw CLI::ValidationError("--up", "is of a groom; animations and scenes say it themselves");
   if (!isGroom && options.metresPerUnit)
     throw CLI::ValidationError("--unit", "is of a groom; animations and scenes say it themselves");
-  if (!isGroom && options.groom.empty() && !options.keys.options.empty())
-    throw CLI::ValidationError(optionNamed(options.keys.options[0].key),
+  if (!isGroom && options.groom.empty() && !options.keys.optionOf("groom").empty())
+    throw CLI::ValidationError(options.keys.optionOf("groom"),
                                "is of a groom's file, and none is named here");
   if (!isSceneFile(options.input) && options.scene.empty() && !options.keys.sets.empty())
     throw CLI::ValidationError("--set", "is of a scene, and none is named here");
-  if (options.hairs == 0 && options.look.isAsked())
+  if (options.hairs == 0 && !options.keys.optionOf("output").empty())
     throw CLI::ValidationError("--hairs", "0 are no hairs that could have frizz, clumps or blends");
   if (isGroom && (!options.frames.empty() || !options.groom.empty() || !options.scene.empty()))
     throw CLI::ValidationError("IN",
@@ -130,7 +129,7 @@ RenderPlan renderPlanOf(const RenderOptions& options) {
   plan.target.isExr = options.format == "exr";
   if (const auto range = parseFrameRange(options.frames))
     plan.firstFrame = range->first, plan.lastFrame = range->last;
-  plan.hair = {options.hairs, options.width, options.look};
+  plan.hair = {options.hairs, options.width, hairLookOf(options.keys)};
   const auto size = *parsePair(options.size, 'x');
   plan.size = {size.first, size.second, options.samples};
   if (const StrandScale* scale = strandScaleNamed(options.colour)) {
@@ -173,7 +172,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
                   "Hairs that follow the strands; 0: the strands themselves (default: see below)")
       ->check(wholeBetween(0, 10'000'000))
       ->type_name("N");
-  addHairLookOptions(command, options.look);
+  addHairLookOptions(command, options.keys);
   command
       .add_option("--groom", options.groom, "The strands at rest, where IN does not begin so; for --hairs")
       ->type_name("FILE");

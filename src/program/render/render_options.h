@@ -7,7 +7,6 @@
 
 #include "program/cli/cli_fwd.h"
 #include "program/cli/key_options.h"
-#include "ringlet/pictures/hair_look.h"
 #include "ringlet/pictures/render_animation.h"
 #include "ringlet/scenes/file/scene_file.h"
 
@@ -18,7 +17,6 @@ struct RenderOptions {
   std::filesystem::path input, output, groom, scene, against;
   std::string frames, size = "960x540", colour = "auburn", up = "Y", camera, ground, format = "png", device;
   std::optional<int> hairs;
-  HairLook look;
   TypedKeys keys;
   SceneReach reach = SceneReach::anywhere;
   std::optional<double> metresPerUnit, width, melanin, most;

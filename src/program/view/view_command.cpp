@@ -14,7 +14,6 @@
 #include "program/cli/command_line.h"
 #include "program/cli/confined_option.h"
 #include "program/cli/exit_codes.h"
-#include "program/cli/hair_look_options.h"
 #include "program/cli/interruption.h"
 #include "program/cli/key_options.h"
 #include "program/cli/standard_error.h"
@@ -67,7 +66,6 @@ struct TypedView {
   SceneReach reach = SceneReach::anywhere;
   std::string size = "640x480", colour = "auburn", device;
   int frames = 0, samples = 2, hairs = 0;
-  HairLook look;
   TypedKeys keys;
   bool paused = false, json = false;
 };
@@ -117,7 +115,7 @@ Result<view::ViewOutcome> runScene(const TypedView& typed, const SceneFile& file
   plan.scene = &scene;
   plan.up = upOf(file.groom);
   addSolids(scene, plan.up, plan);
-  if (Status added = addHairs(scene, typed.hairs, typed.look, plan); !added) return added.error();
+  if (Status added = addHairs(scene, typed.hairs, hairLookOf(typed.keys), plan); !added) return added.error();
   const auto [width, height] = *parsePair(typed.size, 'x');
   // Volumes of light as a preview needs them.
   plan.look.size = {.width = width,
@@ -207,7 +205,7 @@ void addViewCommand(CLI::App& app, int& exitCode) {
   addOptionsOfKeys(*command, typed->keys,
                    {"groom.unit", "groom.up", "groom.root_end", "groom.points_per_strand"});
   addConfinedOption(*command, typed->reach);
-  addHairLookOptions(*command, typed->look);
+  addHairLookOptions(*command, typed->keys);
   command->add_option("--hairs", typed->hairs, "Hairs that follow the strands; 0: the strands themselves")
       ->check(wholeBetween(0, 10'000'000))
       ->capture_default_str()

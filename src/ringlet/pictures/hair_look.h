@@ -14,7 +14,6 @@ struct HairLook {
   std::filesystem::path
       scalp;  // an OBJ file of the mesh that their roots are on, in the groom's axes and unit
 
-  bool isAsked() const { return frizz || clump || blend || !scalp.empty(); }
   FollowOptions of(FollowOptions options) const {
     options.frizz = frizz.value_or(options.frizz);
     options.gather = clump.value_or(options.gather);
