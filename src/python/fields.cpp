@@ -54,7 +54,7 @@ ForceField fieldOf(const py::object& position, const py::object& rotation, const
   return field;
 }
 
-// "core: Distance below which ... [m], 0.02. "
+// A line each: "core: Distance below which radial and around fade to 0. 0.02 [m]".
 std::string numbersText() {
   const ForceField standard;
   std::string text;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "ringlet/groom/groom_file.h"
@@ -345,6 +346,39 @@ TEST(SceneFileProgram, KeysArePrinted) {
   const auto nowhere = runProgram(folder, {"scene", "pile", "--write", "none/a.toml"});
   EXPECT_EQ(nowhere.exitCode, 5);
   expectContains(nowhere.err, "cannot write into its folder");
+}
+
+// Every command that takes a scene takes any key of it, and says which it does not know.
+TEST(SceneFileProgram, EveryCommandOfScenesTakesSet) {
+  const auto folder = scratchFolder("every_set");
+  ASSERT_EQ(runProgram(folder, {"make", "curl", "-o", "curl.obj", "--quiet"}).exitCode, 0);
+  writeScene(folder / "scene.toml", "");
+  ASSERT_EQ(runProgram(folder, {"simulate", "curl.obj", "--frames", "2", "--backend", "reference", "--cache",
+                                "float32", "-o", "run", "--quiet"})
+                .exitCode,
+            0);
+  const std::map<std::string, std::vector<std::string>> commands{
+      {"simulate", {"simulate", "scene.toml", "-o", "out"}},
+      {"scene", {"scene", "bounce"}},
+      {"render", {"render", "scene.toml", "-o", "pictures"}},
+      {"convert", {"convert", "run/hair.rgc", "hairs.usda", "--hairs", "9", "--scene", "scene.toml"}},
+      {"sweep", {"sweep", "scene.toml", "--vary", "simulation.frames=2", "-o", "swept"}},
+      {"view", {"view", "scene.toml"}}};
+  for (const char* name : {"make", "simulate", "sweep", "info", "measure", "render", "view", "convert",
+                           "scene", "devices", "tune", "conform", "kernels", "material"}) {
+    SCOPED_TRACE(name);
+    const bool takesSet =
+        runProgram(folder, {name, "--help"}).out.find("--set KEY=VALUE") != std::string::npos;
+    ASSERT_EQ(takesSet, commands.contains(name));
+    if (!takesSet) continue;
+    std::vector<std::string> words = commands.at(name);
+    words.insert(words.end(), {"--set", "simulation.gravty=1"});
+    const auto result = runProgram(folder, words);
+    EXPECT_NE(result.exitCode, 0);
+    EXPECT_NE(result.err.find("did you mean simulation.gravity?"), std::string::npos) << result.err;
+    words.back() = "gravity";
+    EXPECT_NE(runProgram(folder, words).err.find("KEY=VALUE"), std::string::npos);
+  }
 }
 
 }  // namespace

@@ -267,6 +267,32 @@ void expectMeasureAgrees(const std::filesystem::path& folder, const json& said) 
   EXPECT_LE(found["max_edge_stretch"].get<double>(), said["max_edge_stretch"].get<double>() + 1e-6);
 }
 
+// By way of a file that is run by `simulate` too, with all that a built-in scene has by itself no place for.
+TEST(Scene, SetChangesWhatRunsAndWhatIsWritten) {
+  const auto folder = scratchFolder("scene_set");
+  RINGLET_NEEDS_DEVICE(folder);
+  const std::vector<std::string> scene{"scene", "head_shake", "--seconds", "0.2", "--untuned"};
+  const auto with = [](std::vector<std::string> words, std::vector<std::string> more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  const auto hashOf = [&](const std::vector<std::string>& words) {
+    const auto result = runProgram(folder, words);
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    return json::parse(result.out, nullptr, false).value("positions_hash", "none");
+  };
+  const std::string plain = hashOf(with(scene, {"--json"}));
+  for (const char* change : {"simulation.gravity=2", "material.dials.hold=0.1", "air.wind=[30, 0, 10]",
+                             "goal.strength=30", "simulation.integrator=point_jacobi"}) {
+    SCOPED_TRACE(change);
+    const std::string changed = hashOf(with(scene, {"--json", "--set", change}));
+    EXPECT_NE(changed, plain);
+    ASSERT_EQ(runProgram(folder, with(scene, {"--quiet", "--write", "scene.toml", "--set", change})).exitCode,
+              0);
+    EXPECT_EQ(hashOf({"simulate", "scene.toml", "--json", "--untuned", "--overwrite", "-o", "out"}), changed);
+  }
+}
+
 TEST(Scene, WritesFilesThatMeasureReadsBack) {
   const auto folder = scratchFolder("scene_files");
   // Long enough to bounce and to settle; a head that turns and shows it by roots that are not on a line.
@@ -458,6 +484,9 @@ TEST(Scene, MistakesAreOneSentence) {
            Case{{"two_curls", "--max-neighbours", "-1"}, 2, "must be a whole number from 0"},
            Case{{"bounce", "--prune", "8"}, 2, "--prune: only with --contacts on, or in a scene of hair"},
            Case{{"bounce", "--integrator", "paper", "--bend-stiffness", "1"}, 2, "--bend-stiffness: --integ"},
+           Case{{"two_curls", "--set", "groom.scale=2"}, 2, "--set: groom.scale has no place here"},
+           Case{{"two_curls", "--set", "output.folder=out"}, 2, "--set: output.folder has no place here"},
+           Case{{"two_curls", "--set", "simulation.gravty=2"}, 2, "did you mean simulation.gravity?"},
            Case{{"two_curls", "--strands", "3"}, 1, "two_curls has its two strands"},
            Case{{"two_curls", "--integrator", "paper"}, 1, "contacts need jacobi"},
            Case{{"--list", "bounce"}, 2, "NAME: --list only says which scenes there are"},

@@ -88,8 +88,8 @@ constexpr KeyOption kKeyOptions[] = {
     {"--usd-prims", "output", "prims", "WHOSE"},
 };
 
-// "--gravity" for "simulation.gravity"; null where the key has no option.
-const KeyOption* optionOf(std::string_view key) {
+// Of "simulation.gravity"; null where the key has no option.
+const KeyOption* rowOf(std::string_view key) {
   const auto* found = std::ranges::find(kKeyOptions, key, &KeyOption::fullKey);
   return found == std::end(kKeyOptions) ? nullptr : found;
 }
@@ -258,7 +258,7 @@ void addKeyOptions(CLI::App& command, TypedKeys& typed, std::string_view table, 
 void addOptionsOfKeys(CLI::App& command, TypedKeys& typed, const std::vector<std::string_view>& keys,
                       const std::string& group) {
   for (const std::string_view key : keys) {
-    const KeyOption* row = optionOf(key);
+    const KeyOption* row = rowOf(key);
     RINGLET_ASSERT(row, "a key has no option");
     addOption(command, typed, *row, group);
   }
@@ -267,7 +267,7 @@ void addOptionsOfKeys(CLI::App& command, TypedKeys& typed, const std::vector<std
 std::string optionNamed(std::string_view key) {
   if (key == "motion.kind" || key == "motion.file") return "--motion";
   if (key == "simulation.chebyshev") return "--no-chebyshev";
-  const KeyOption* row = optionOf(key);
+  const KeyOption* row = rowOf(key);
   return row ? row->option : "";
 }
 
@@ -281,6 +281,12 @@ void addSetOption(CLI::App& command, TypedKeys& typed, const std::string& group)
   if (!group.empty()) option->group(group);
 }
 
+Result<SceneFile> readTypedScene(const std::filesystem::path& file, const TypedKeys& typed,
+                                 SceneReach reach) {
+  return readWith(typed,
+                  [&](const std::vector<SceneChange>& changes) { return readScene(file, changes, reach); });
+}
+
 Result<SceneFile> readTyped(const std::filesystem::path& input, const TypedKeys& typed, SceneReach reach,
                             const char* motion) {
   const bool isScene = isSceneFile(input);
@@ -292,8 +298,8 @@ Result<SceneFile> readTyped(const std::filesystem::path& input, const TypedKeys&
   if (!isScene && !isGroomFile(input))
     return Error{fmt::format("{} is neither a scene (.toml) nor a groom ({})", input.string(), kGroomEndings),
                  Fault::input};
+  if (isScene) return readTypedScene(input, typed, reach);
   return readWith(typed, [&](std::vector<SceneChange> changes) {
-    if (isScene) return readScene(input, changes, reach);
     using Form = SceneChange::Form;
     changes.insert(changes.begin(),
                    {{"groom.file", input.string(), Form::path, {}}, {"motion.kind", motion, Form::text, {}}});

@@ -41,11 +41,13 @@ std::string optionNamed(std::string_view key);
 /// Adds --set.
 void addSetOption(CLI::App& command, TypedKeys& typed, const std::string& group = "");
 
-/// The scene of a file, or of a groom's file, whose head then moves as the built-in motion `motion`, keys as
-/// typed. Throws CLI11's error for keys that the scene does not take, by the names of their options. Errors:
-/// those of the file.
+/// The scene of a file, keys as typed. Throws CLI11's error for keys that the scene does not take, by the
+/// names of their options. Errors: those of the file.
+Result<SceneFile> readTypedScene(const std::filesystem::path& file, const TypedKeys& typed, SceneReach reach);
+
+/// The same, or of a groom's file, whose head then moves as the built-in motion `motion`.
 Result<SceneFile> readTyped(const std::filesystem::path& input, const TypedKeys& typed, SceneReach reach,
-                            const char* motion = "still");
+                            const char* motion);
 
 /// The same from a scene's text.
 Result<SceneFile> parseTyped(std::string_view text, const std::string& name, const TypedKeys& typed);

@@ -110,7 +110,7 @@ std::optional<ConvertTo> kindOf(const TypedConvert& typed) {
 // The scene that IN was simulated from, where it is named.
 Result<std::optional<LoadedScene>> sceneOf(const TypedConvert& typed) {
   if (typed.scene.empty()) return std::optional<LoadedScene>();
-  const auto file = readTyped(typed.scene, typed.keys, typed.reach);
+  const auto file = readTypedScene(typed.scene, typed.keys, typed.reach);
   if (!file) return file.error();
   auto scene = loadScene(*file);
   if (!scene) return scene.error();

@@ -124,7 +124,7 @@ Status simulate(const LoadedScene& scene, const SceneFile& file, const RenderOpt
 }
 
 Result<RenderOutcome> runScene(const RenderOptions& typed, const ComputeDevice& device, RenderPlan plan) {
-  const auto file = readTyped(typed.input, typed.keys, typed.reach);
+  const auto file = readTypedScene(typed.input, typed.keys, typed.reach);
   if (!file) return file.error();
   const auto scene = loadScene(*file);
   if (!scene) return scene.error();
@@ -157,7 +157,7 @@ Result<RenderOutcome> runAnimation(const RenderOptions& typed, const ComputeDevi
   std::optional<LoadedScene> scene;
   std::optional<LoadedGroom> groom;
   if (!typed.scene.empty()) {
-    const auto file = readTyped(typed.scene, typed.keys, typed.reach);
+    const auto file = readTypedScene(typed.scene, typed.keys, typed.reach);
     if (!file) return file.error();
     auto loaded = loadScene(*file);
     if (!loaded) return loaded.error();

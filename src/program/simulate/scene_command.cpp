@@ -223,6 +223,14 @@ nlohmann::ordered_json asJson(const TypedScene& typed, const BuiltinScene& scene
   return json;
 }
 
+// The scene as a file, keys as typed in place of its own.
+Result<SceneFile> fileOf(const BuiltinScene& scene, const std::filesystem::path& groom,
+                         const TypedKeys& keys) {
+  SceneFile file = sceneFileOf(scene, groom);
+  if (keys.isEmpty()) return file;
+  return parseTyped(sceneText(file), scene.name, keys);
+}
+
 // The scene as a file, its groom beside it.
 Result<int> writeScene(const TypedScene& typed, const BuiltinScene& scene) {
   const std::filesystem::path folder = typed.file.parent_path(),
@@ -231,7 +239,9 @@ Result<int> writeScene(const TypedScene& typed, const BuiltinScene& scene) {
       "# The built-in scene {}. {}\n# ringlet simulate {} -o out\n# What is left out keeps its default; "
       "`ringlet scene --keys` prints every key.\n",
       scene.name, scene.summary, typed.file.filename().string());
-  const std::string text = sceneText(sceneFileOf(scene, groom), folder, heading);
+  const auto file = fileOf(scene, groom, typed.changes);
+  if (!file) return file.error();
+  const std::string text = sceneText(*file, folder, heading);
   if (Status written = writeObj(groom, scene.groom); !written) return written.error();
   if (Status written = writeWholeFile(typed.file, std::as_bytes(std::span<const char>(text))); !written)
     return written.error();
@@ -244,10 +254,22 @@ Result<int> writeScene(const TypedScene& typed, const BuiltinScene& scene) {
   return kExitFine;
 }
 
-// Keys as typed, in place of the scene's own, by way of its file.
+// Throws CLI11's error for keys of what a built-in scene does not take from a file.
+void checkSets(const TypedKeys& keys) {
+  for (const SceneChange& change : keys.changes())
+    for (const char* table : {"groom.", "output."})
+      if (change.key.starts_with(table))
+        throw CLI::ValidationError(
+            "--set",
+            fmt::format("{} has no place here: a built-in scene makes its own groom and writes what -o "
+                        "says; write the scene with --write and change that",
+                        change.key));
+}
+
+// Keys as typed, in place of the scene's own.
 Status applyKeys(const TypedKeys& keys, BuiltinScene& scene) {
   if (keys.isEmpty()) return {};
-  const auto file = parseTyped(sceneText(sceneFileOf(scene, "groom.obj")), scene.name, keys);
+  const auto file = fileOf(scene, "groom.obj", keys);
   if (!file) return file.error();
   const LoadedGroom groom{scene.groom};
   auto loaded = loadScene(*file, &groom);
@@ -262,8 +284,9 @@ Status applyKeys(const TypedKeys& keys, BuiltinScene& scene) {
 Result<int> runScene(TypedScene& typed) {
   auto scene = makeScene(typed.name, typed.scene);
   if (!scene) return scene.error();
-  if (Status applied = applyKeys(typed.changes, *scene); !applied) return applied.error();
   if (!typed.file.empty()) return writeScene(typed, *scene);
+  if (Status applied = applyKeys(typed.changes, *scene); !applied) return applied.error();
+  typed.names.integrator = kIntegratorNames[static_cast<int>(scene->settings.integrator)];
   SimulateOptions& options = typed.run;
   options.measuresContacts = scene->showsContacts || scene->settings.contacts.on;
   options.measuresResidual = !options.onReference;
@@ -350,6 +373,7 @@ void resolve(TypedScene& typed) {
   checkDialOptions(typed.dials, typed.scene.integrator);
   typed.scene.dials = turned(typed.dials, {});
   checkContactOptions(typed.changes);
+  checkSets(typed.changes);
   typed.scene.contacts = typedContacts(typed.changes);
   if (!typed.scene.contacts.value_or(sceneShowsContacts(typed.name)) && !sceneShowsContacts(typed.name))
     refuseContactOptions(typed.changes, "only with --contacts on, or in a scene of hair that meets hair");
