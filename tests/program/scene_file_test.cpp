@@ -212,13 +212,16 @@ TEST(SceneFileProgram, BodiesAreRead) {
     std::vector<std::string> options{};
     int exitCode = 1;
   };
-  for (const Case& c :
-       {Case{motion + "[[body]]\nshape = 'sphere'\njoint = 'Shuolder'\n",
-             "the body sphere 1: ./walk.bvh has no joint Shuolder; did you mean Shoulder?"},
-        Case{motion + "[[body]]\nname = 'neck'\nshape = 'sphere'\njoint = 'Shoulder'\n",
-             "the body neck: its joint Shoulder is one of the head's motion file, but the head follows none",
-             {"--motion", "nod"}},
-        Case{motion + "[[body]]\nshape = 'box'\nmoves = { file = 'none.bvh' }\n", "none.bvh", {}, 4}}) {
+  for (
+      const Case& c :
+      {Case{motion + "[[body]]\nshape = 'sphere'\njoint = 'Shuolder'\n",
+            "the body sphere 1: ./walk.bvh has no joint Shuolder; did you mean Shoulder?"},
+       Case{
+           motion + "[[body]]\nname = 'neck'\nshape = 'sphere'\njoint = 'Shoulder'\n",
+           "--motion: ./wrong.toml: line 11: found body.joint, but the head follows no file; expected motion.file",
+           {"--motion", "nod"},
+           2},
+       Case{motion + "[[body]]\nshape = 'box'\nmoves = { file = 'none.bvh' }\n", "none.bvh", {}, 4}}) {
     writeScene(folder / "wrong.toml", c.text);
     std::vector<std::string> arguments{"simulate", "./wrong.toml", "-o", "out", "--backend", "reference"};
     arguments.insert(arguments.end(), c.options.begin(), c.options.end());

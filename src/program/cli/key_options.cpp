@@ -296,8 +296,8 @@ Result<SceneFile> readTyped(const std::filesystem::path& input, const TypedKeys&
                              input.string(), kGroomEndings),
                  Fault::input};
   if (!isScene && !isGroomFile(input))
-    return Error{fmt::format("{} is neither a scene (.toml) nor a groom ({})", input.string(), kGroomEndings),
-                 Fault::input};
+    return Error{
+        fmt::format("{} is neither a scene (.toml) nor a groom ({})", input.string(), kGroomEndings)};
   if (isScene) return readTypedScene(input, typed, reach);
   return readWith(typed, [&](std::vector<SceneChange> changes) {
     using Form = SceneChange::Form;
