@@ -11,6 +11,7 @@
 
 #include "python/arrays.h"
 #include "python/poses.h"
+#include "python/setting_values.h"
 #include "ringlet/bodies/body_distance.h"
 #include "ringlet/bodies/head_mesh.h"
 #include "ringlet/bodies/mesh_file.h"
@@ -21,17 +22,37 @@
 namespace ringlet::python {
 namespace {
 
-// What every body has besides its shape.
-Body commonOf(BodyShape shape, const std::string& name, double thickness, double friction,
-              const py::object& position, const py::object& rotation,
-              const std::optional<MotionObject>& motion) {
-  Body body;
-  body.name = name;
-  body.shape = shape;
-  body.thickness = thickness;
-  body.friction = friction;
-  body.place = {vectorOf(position, "position"), rotationOf(rotation, "rotation")};
-  if (motion) body.motion = motion->motion;
+// What carries a body, and where in its frame it is.
+struct Stand {
+  std::string name;
+  BodyPose place;
+  std::optional<MotionObject> motion;
+};
+
+std::vector<SettingField<Body>> numbersOf(const BodyForm& form) {
+  std::vector<SettingField<Body>> rows;
+  for (const SettingField<Body>& row : bodyNumbers())
+    if (hasNumber(form, row)) rows.push_back(row);
+  return rows;
+}
+
+// `sizes`, by place, are the numbers that only some shapes have, in their order.
+Body bodyOf(const BodyForm& form, const Stand& stand, const py::args& sizes, py::kwargs numbers) {
+  Body body{.name = stand.name, .shape = form.shape, .place = stand.place};
+  if (stand.motion) body.motion = stand.motion->motion;
+  const std::vector<SettingField<Body>> rows = numbersOf(form);
+  std::size_t given = 0;
+  for (const SettingField<Body>& row : rows) {
+    if (row.onlyWith.empty()) continue;
+    if (given == sizes.size()) break;
+    if (numbers.contains(row.key))
+      throw py::type_error(fmt::format("Body.{} got two values for {}", form.name, row.key));
+    numbers[row.key] = sizes[given++];
+  }
+  if (given < sizes.size())
+    throw py::type_error(
+        fmt::format("Body.{} takes {} numbers by place, got {}", form.name, given, sizes.size()));
+  setNumbers<Body>(rows, form.name.data(), {"name", "position", "rotation", "motion"}, numbers, body);
   return body;
 }
 BodyObject checked(Body body, std::vector<std::string> warnings = {}) {
@@ -67,11 +88,15 @@ py::tuple arraysOf(const TriangleMesh& mesh) {
   return py::make_tuple(arrayOf(mesh.points), triangles);
 }
 
-BodyObject meshBody(const py::object& points, const py::object& triangles, int cells, const std::string& name,
-                    double thickness, double friction, const py::object& position, const py::object& rotation,
-                    const std::optional<MotionObject>& motion) {
+Stand standOf(const std::string& name, const py::object& position, const py::object& rotation,
+              const std::optional<MotionObject>& motion) {
+  return {name, {vectorOf(position, "position"), rotationOf(rotation, "rotation")}, motion};
+}
+
+BodyObject meshBody(const py::object& points, const py::object& triangles, int cells, const Stand& stand,
+                    const py::kwargs& numbers) {
   const TriangleMesh mesh = meshOf(points, triangles);
-  Body body = commonOf(BodyShape::grid, name, thickness, friction, position, rotation, motion);
+  Body body = bodyOf(formOf(BodyShape::grid), stand, {}, numbers);
   MeshGrid made = withoutGil([&] { return valueOf(makeDistanceGrid(mesh, {.cells = cells})); });
   body.grid = std::make_shared<const DistanceGrid>(std::move(made.grid));
   return checked(std::move(body), std::move(made.warnings));
@@ -103,85 +128,71 @@ py::array_t<double> distances(const BodyObject& self, const py::object& points, 
   }));
 }
 
-#define RINGLET_COMMON_ARGUMENTS                                                                   \
-  py::arg("name") = "", py::arg("thickness") = 0.0, py::arg("friction") = 0.2,                     \
-  py::arg("position") = py::make_tuple(0, 0, 0), py::arg("rotation") = py::make_tuple(0, 0, 0, 1), \
-  py::arg("motion") = py::none()
+#define RINGLET_STAND                                                  \
+  py::arg("name") = "", py::arg("position") = py::make_tuple(0, 0, 0), \
+  py::arg("rotation") = py::make_tuple(0, 0, 0, 1), py::arg("motion") = py::none()
 
 std::string bodyReprOf(const BodyObject& self) {
   const Body& body = self.body;
   std::string size;
-  if (body.shape == BodyShape::sphere) size = fmt::format(" of radius {} m", body.radius);
-  if (body.shape == BodyShape::capsule)
-    size = fmt::format(" of radius {} m and length {} m", body.radius, body.length);
-  if (body.shape == BodyShape::box)
-    size = fmt::format(" of half extents ({}, {}, {}) m", body.halfExtents.x, body.halfExtents.y,
-                       body.halfExtents.z);
+  for (const SettingField<Body>& row : numbersOf(formOf(body.shape))) {
+    if (row.onlyWith.empty()) continue;
+    const py::object value = std::visit([&](auto member) { return toPython(body.*member); }, row.member);
+    size += fmt::format(", {} {} m", row.key, py::repr(value).cast<std::string>());
+  }
   const Vec3d& at = body.place.position;
-  return fmt::format("<ringlet.Body{}: a {}{} at ({}, {}, {}){}>", body.name.empty() ? "" : " " + body.name,
+  return fmt::format("<ringlet.Body{}: a {}{}, at ({}, {}, {}){}>", body.name.empty() ? "" : " " + body.name,
                      formOf(body.shape).name, size, at.x, at.y, at.z,
                      body.motion ? ", with a motion of its own" : "");
 }
 
+void addShape(py::class_<BodyObject>& bodies, const BodyForm& form) {
+  const std::string doc = fmt::format("A {}. Its numbers, by name, sizes also by place:{}", form.name,
+                                      numbersText<Body>(numbersOf(form)));
+  bodies.def_static(
+      form.name.data(),
+      [&form](const py::args& sizes, const std::string& name, const py::object& position,
+              const py::object& rotation, const std::optional<MotionObject>& motion,
+              const py::kwargs& numbers) {
+        return checked(bodyOf(form, standOf(name, position, rotation, motion), sizes, numbers));
+      },
+      RINGLET_STAND, doc.c_str());
+}
+
+void addMesh(py::class_<BodyObject>& bodies) {
+  const std::string doc =
+      "A closed surface: points (points, 3) [m], triangles (triangles, 3) indices, counterclockwise seen from "
+      "outside, as read_mesh and make_head_mesh give them. cells: of its distance grid, along its longest side, "
+      "8 to 256. Takes about a second. Its numbers, by name:" +
+      numbersText<Body>(numbersOf(formOf(BodyShape::grid)));
+  bodies.def_static(
+      "mesh",
+      [](const py::object& points, const py::object& triangles, int cells, const std::string& name,
+         const py::object& position, const py::object& rotation, const std::optional<MotionObject>& motion,
+         const py::kwargs& numbers) {
+        return meshBody(points, triangles, cells, standOf(name, position, rotation, motion), numbers);
+      },
+      py::arg("points"), py::arg("triangles"), py::kw_only(), py::arg("cells") = 64, RINGLET_STAND,
+      doc.c_str());
+}
+
 void addBody(py::module_& module) {
-  py::class_<BodyObject>(
+  py::class_<BodyObject> bodies(
       module, "Body",
-      "What hair stays out of; solid. Constant. All shapes take: name, for messages; thickness: hair keeps "
-      "this much further away [m]; friction: Coulomb's coefficient; position [m] and rotation in the frame "
-      "of what carries it: the head's, or that of a motion of its own. ringlet.Error for a number out of its "
-      "range.")
-      .def_static(
-          "sphere",
-          [](double radius, const std::string& name, double thickness, double friction,
-             const py::object& position, const py::object& rotation,
-             const std::optional<MotionObject>& motion) {
-            Body body = commonOf(BodyShape::sphere, name, thickness, friction, position, rotation, motion);
-            body.radius = radius;
-            return checked(std::move(body));
-          },
-          py::arg("radius"), py::kw_only(), RINGLET_COMMON_ARGUMENTS, "Of this radius about its origin [m].")
-      .def_static(
-          "capsule",
-          [](double radius, double length, const std::string& name, double thickness, double friction,
-             const py::object& position, const py::object& rotation,
-             const std::optional<MotionObject>& motion) {
-            Body body = commonOf(BodyShape::capsule, name, thickness, friction, position, rotation, motion);
-            body.radius = radius, body.length = length;
-            return checked(std::move(body));
-          },
-          py::arg("radius"), py::arg("length"), py::kw_only(), RINGLET_COMMON_ARGUMENTS,
-          "All within this radius of a line of this length along Y, its middle at the origin [m].")
-      .def_static(
-          "plane",
-          [](const std::string& name, double thickness, double friction, const py::object& position,
-             const py::object& rotation, const std::optional<MotionObject>& motion) {
-            return checked(commonOf(BodyShape::plane, name, thickness, friction, position, rotation, motion));
-          },
-          py::kw_only(), RINGLET_COMMON_ARGUMENTS, "The half space below Y = 0.")
-      .def_static(
-          "box",
-          [](const py::object& halfExtents, const std::string& name, double thickness, double friction,
-             const py::object& position, const py::object& rotation,
-             const std::optional<MotionObject>& motion) {
-            Body body = commonOf(BodyShape::box, name, thickness, friction, position, rotation, motion);
-            body.halfExtents = vectorOf(halfExtents, "half_extents");
-            return checked(std::move(body));
-          },
-          py::arg("half_extents"), py::kw_only(), RINGLET_COMMON_ARGUMENTS,
-          "So far to either side of its origin along X, Y and Z [m].")
-      .def_static(
-          "mesh", &meshBody, py::arg("points"), py::arg("triangles"), py::kw_only(), py::arg("cells") = 64,
-          RINGLET_COMMON_ARGUMENTS,
-          "A closed surface: points (points, 3) [m], triangles (triangles, 3) indices, counterclockwise seen "
-          "from outside, as read_mesh and make_head_mesh give them. cells: of its distance grid, along its "
-          "longest side, 8 to 256. Takes about a second.")
+      "What hair stays out of; solid. Constant. All shapes take: name, for messages; position [m] and rotation "
+      "in the frame of what carries it: the head's, or that of a motion of its own. ValueError for a number out "
+      "of its range.");
+  for (const BodyForm& form : bodyForms())
+    if (form.shape != BodyShape::grid) addShape(bodies, form);
+  addMesh(bodies);
+  bodies
       .def("distances", &distances, py::arg("points"), py::arg("pose") = py::none(),
            "(points,) float64: how far points, (points, 3) float32 [m] in the world, are from its surface, "
            "negative inside, with the body at a Pose; None: where its position and rotation say.")
       .def_property_readonly(
           "name", [](const BodyObject& self) { return self.body.name; }, "For messages.")
       .def_property_readonly(
-          "shape", [](const BodyObject& self) { return formOf(self.body.shape).name; },
+          "shape", [](const BodyObject& self) { return nameOf(self.body.shape); },
           "\"sphere\", \"capsule\", \"plane\", \"box\" or \"mesh\".")
       .def_readonly("warnings", &BodyObject::warnings,
                     "What was odd about its mesh, as holes that were closed: a list of sentences.")

@@ -35,35 +35,14 @@ std::shared_ptr<const VelocityGrid> gridOf(const py::object& value, double cell)
   return std::make_shared<const VelocityGrid>(std::move(grid));
 }
 
-void setNumber(const std::string& key, const py::object& value, ForceField& field) {
-  const auto* row = fieldNamed(forceFieldNumbers(), key);
-  std::vector<std::string> names{"position", "rotation", "grid", "cell", "name"};
-  for (const auto& each : forceFieldNumbers()) names.emplace_back(each.key);
-  if (!row) throw py::type_error(unknownName("number of a field", key, names));
-  std::visit([&](auto member) { fromPython(*row, key, value, field.*member); }, row->member);
-}
-
 ForceField fieldOf(const py::object& position, const py::object& rotation, const py::object& grid,
                    double cell, const std::string& name, const py::kwargs& numbers) {
   ForceField field{.name = name,
                    .place = {vectorOf(position, "position"), rotationOf(rotation, "rotation")},
                    .grid = gridOf(grid, cell)};
-  for (const auto& [key, value] : numbers)
-    setNumber(key.cast<std::string>(), py::reinterpret_borrow<py::object>(value), field);
+  setNumbers(forceFieldNumbers(), "field", {"position", "rotation", "grid", "cell", "name"}, numbers, field);
   demand(checkForceField(field));
   return field;
-}
-
-// A line each: "core: Distance below which radial and around fade to 0. 0.02 [m]".
-std::string numbersText() {
-  const ForceField standard;
-  std::string text;
-  for (const auto& row : forceFieldNumbers()) {
-    const std::string unit = *row.unit ? fmt::format(" [{}]", row.unit) : "";
-    const py::object value = std::visit([&](auto member) { return toPython(standard.*member); }, row.member);
-    text += fmt::format("\n{}: {} {}{}", row.key, row.effect, py::repr(value).cast<std::string>(), unit);
-  }
-  return text;
 }
 
 }  // namespace
@@ -73,7 +52,7 @@ void addFields(py::module_& module) {
       "position [m], rotation: of its place; of a grid, of its first node. grid: velocities of air, "
       "(x, y, z, 3), cell apart [m]. Numbers, by name, each with its default; ringlet.Error and ValueError "
       "for one out of its range:" +
-      numbersText();
+      numbersText(forceFieldNumbers());
   py::class_<ForceField>(
       module, "Field",
       "A field of force, or of air that moves, in the world. Constant. Strengths are accelerations [m/s^2]; "

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "python/arrays.h"
@@ -78,6 +81,36 @@ void fromPython(const Field& field, const std::string& key, const py::object& va
   T set{};
   fromPython(field, key, value, set);
   to = set;
+}
+
+// Numbers of an Owner by name; `what` it is and `others`, names of what else it takes, are for messages.
+// Throws TypeError for an unknown name.
+template <class Owner>
+void setNumbers(std::span<const SettingField<Owner>> rows, const char* what, std::vector<std::string> others,
+                const py::kwargs& numbers, Owner& owner) {
+  for (const auto& [key, value] : numbers) {
+    const std::string name = py::str(key);
+    const SettingField<Owner>* row = fieldNamed(rows, name);
+    if (!row) {
+      for (const SettingField<Owner>& each : rows) others.emplace_back(each.key);
+      throw py::type_error(unknownName(fmt::format("number of a {}", what), name, others));
+    }
+    const py::object object = py::reinterpret_borrow<py::object>(value);
+    std::visit([&, row = row](auto member) { fromPython(*row, name, object, owner.*member); }, row->member);
+  }
+}
+
+// A line each: "core: Distance below which radial and around fade to 0. 0.02 [m]".
+template <class Owner>
+std::string numbersText(std::span<const SettingField<Owner>> rows) {
+  const Owner standard{};
+  std::string text;
+  for (const SettingField<Owner>& row : rows) {
+    const std::string unit = *row.unit ? fmt::format(" [{}]", row.unit) : "";
+    const py::object value = std::visit([&](auto member) { return toPython(standard.*member); }, row.member);
+    text += fmt::format("\n{}: {} {}{}", row.key, row.effect, py::repr(value).cast<std::string>(), unit);
+  }
+  return text;
 }
 
 }  // namespace ringlet::python

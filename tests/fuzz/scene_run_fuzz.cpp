@@ -36,8 +36,8 @@ bool isSmall(const SceneFile& scene) {
                  scene.contacts.iterations.value_or(2) <= kMostIterations;
   for (const SceneBody& body : scene.bodies)
     isSmall = isSmall && body.file.empty() && body.joint.empty() &&
-              (!body.motion || body.motion->file.empty()) &&
-              (body.shape != "mesh" || body.cells <= kMostCells);
+              (!body.moves || body.moves->file.empty()) &&
+              (body.shape != BodyShape::grid || body.cells <= kMostCells);
   return isSmall;
 }
 

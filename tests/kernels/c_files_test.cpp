@@ -152,10 +152,11 @@ TEST_F(CFiles, AMeshIsTheSurfaceOfABody) {
   ringlet_mesh* mesh = nullptr;
   ASSERT_EQ(ringlet_mesh_read(path.c_str(), 0.01, &mesh), RINGLET_OK) << ringlet_error_message();
   ringlet_body body = RINGLET_INIT(ringlet_body);
-  body.friction = 0.3, body.cells = 16;
+  const ringlet_number friction{"friction", {0.3}};
+  body.numbers = &friction, body.number_count = 1, body.cells = 16;
   ASSERT_EQ(ringlet_mesh_get(mesh, &body), RINGLET_OK);
-  EXPECT_EQ(body.shape, RINGLET_MESH);
-  EXPECT_EQ(body.friction, 0.3) << "the rest stays";
+  EXPECT_STREQ(body.shape, "mesh");
+  EXPECT_EQ(body.numbers, &friction) << "the rest stays";
   ASSERT_EQ(body.vertex_count, 4u);
   ASSERT_EQ(body.triangle_count, 4u);
   EXPECT_FLOAT_EQ(body.vertices[3], 0.1f);

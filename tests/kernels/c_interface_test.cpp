@@ -205,7 +205,7 @@ TEST_F(CInterface, AnswersWhateverIsHandedOver) {
   ringlet_hair* lost = nullptr;
   expectInvalid(ringlet_hair_create(c.asset, &initial, &lost), "not finite");
   ringlet_body body = RINGLET_INIT(ringlet_body);
-  body.shape = RINGLET_MESH;
+  body.shape = "mesh";
   initial = RINGLET_INIT(ringlet_initial_state);
   initial.bodies = &body, initial.body_count = 1;
   EXPECT_EQ(ringlet_hair_create(c.asset, &initial, &lost), RINGLET_ERROR);  // a mesh without triangles

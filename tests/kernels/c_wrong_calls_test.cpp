@@ -16,6 +16,7 @@
 
 #include "ringlet/base/whole_file.h"
 #include "ringlet/gpu/owned.h"
+#include "ringlet/scene/body_forms.h"
 #include "ringlet/scene/force_field.h"
 #include "tests/kernels/c_handles.h"
 #include "tests/support/parity.h"
@@ -264,8 +265,7 @@ template <class Set>
 std::function<ringlet_result(Built&, double)> body(Set set) {
   return [set](Built& c, double value) {
     ringlet_body one = RINGLET_INIT(ringlet_body);
-    one.shape = RINGLET_SPHERE, one.radius = 0.01, one.length = 0.01;
-    one.half_extents[0] = one.half_extents[1] = one.half_extents[2] = 0.01;
+    one.shape = "sphere";
     set(one, value);
     return ringlet_hair_set_bodies(c.hairs[0], &one, 1);
   };
@@ -304,7 +304,7 @@ std::function<ringlet_result(Built&, double)> frame(Set set) {
     one.hair = c.hairs[0], one.step_poses = heads.data(), one.step_count = 8;
     one.root_poses = roots.data(), one.body_poses = bodies.data();
     ringlet_body sphere = RINGLET_INIT(ringlet_body);
-    sphere.radius = 0.01;
+    sphere.shape = "sphere";
     EXPECT_EQ(ringlet_hair_set_bodies(c.hairs[0], &sphere, 1), RINGLET_OK);
     set(heads[7], roots[15], bodies[7], value);
     return ringlet_step(&one, 1);
@@ -313,11 +313,6 @@ std::function<ringlet_result(Built&, double)> frame(Set set) {
 
 std::vector<Number> numbers() {
   std::vector<Number> all{
-      {"body.radius", body([](auto& b, double v) { b.radius = v; })},
-      {"body.length", body([](auto& b, double v) { b.shape = RINGLET_CAPSULE, b.length = v; })},
-      {"body.half_extents", body([](auto& b, double v) { b.shape = RINGLET_BOX, b.half_extents[1] = v; })},
-      {"body.thickness", body([](auto& b, double v) { b.thickness = v; })},
-      {"body.friction", body([](auto& b, double v) { b.friction = v; })},
       {"body.position", body([](auto& b, double v) { b.pose.position[2] = v; })},
       {"body.rotation", body([](auto& b, double v) { b.pose.rotation[1] = v; })},
       {"body.vertices", body([](auto& b, double v) {
@@ -325,13 +320,13 @@ std::vector<Number> numbers() {
          static const std::uint32_t triangles[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
          const float corners[12] = {0, 0, 0, 0.1f, 0, 0, 0, 0.1f, 0, 0, 0, static_cast<float>(v)};
          std::copy(std::begin(corners), std::end(corners), vertices);
-         b.shape = RINGLET_MESH, b.vertices = vertices, b.vertex_count = 4;
+         b.shape = "mesh", b.vertices = vertices, b.vertex_count = 4;
          b.triangles = triangles, b.triangle_count = 4, b.cells = 8;
        })},
       {"body.cells", body([](auto& b, double v) {
          static const float vertices[12] = {0, 0, 0, 0.1f, 0, 0, 0, 0.1f, 0, 0, 0, 0.1f};
          static const std::uint32_t triangles[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
-         b.shape = RINGLET_MESH, b.vertices = vertices, b.vertex_count = 4;
+         b.shape = "mesh", b.vertices = vertices, b.vertex_count = 4;
          b.triangles = triangles, b.triangle_count = 4;
          b.cells = v > 2e9 ? 2147483647 : v < -2e9 ? -2147483647 : std::isnan(v) ? -7 : static_cast<int>(v);
        })},
@@ -372,6 +367,18 @@ std::vector<Number> numbers() {
          return result;
        }},
   };
+  for (const auto& form : bodyForms()) {
+    for (const auto& row : bodyNumbers()) {
+      if (form.shape == BodyShape::grid || !hasNumber(form, row)) continue;
+      const char* key = row.key;
+      all.push_back({key, body([key, &form](auto& b, double v) {
+                       static ringlet_number number;
+                       number = {key, {0.01, v, 0.01}};
+                       if (std::string(key) != "half_extents") number.value[0] = v;
+                       b.shape = form.name.data(), b.numbers = &number, b.number_count = 1;
+                     })});
+    }
+  }
   for (const auto& row : forceFieldNumbers()) {
     const char* key = row.key;
     all.push_back({key, field([key](auto& f, float*, double v) {
@@ -511,7 +518,7 @@ TEST_F(CWrongCalls, CheckpointsOfOtherHair) {
     }
   }
   ringlet_body sphere = RINGLET_INIT(ringlet_body);
-  sphere.radius = 0.01;
+  sphere.shape = "sphere";
   ASSERT_EQ(ringlet_hair_set_bodies(c.hairs[0], &sphere, 1), RINGLET_OK);
   EXPECT_EQ(ringlet_restore(c.hairs[0], checkpoint.data(), checkpoint.size()), RINGLET_ERROR)
       << "other bodies";

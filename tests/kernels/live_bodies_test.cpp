@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ringlet/c/handles.h"
+#include "ringlet/scene/body_forms.h"
 #include "tests/kernels/sample_hairs.h"
 #include "tests/support/gpu_test.h"
 
@@ -152,11 +153,12 @@ TEST_F(LiveBodies, ChangeThroughC) {
   const auto asset = HairAsset::build(device(), groom, {}, {}, {.features = {.bodies = true}});
   Simulation expected = *Simulation::create(*asset, {.bodies = sets()[1]});
   ringlet_asset handle{*asset, device()};
+  const ringlet_number large{"radius", {0.03}}, small{"radius", {0.001}};
   ringlet_body sphere = RINGLET_INIT(ringlet_body);
-  sphere.radius = 0.03, sphere.friction = Body{}.friction;
+  sphere.shape = "sphere", sphere.numbers = &large, sphere.number_count = 1;
   sphere.pose = {{0.01, -0.04, 0}, {0, 0, 0, 1}};
   ringlet_body other = sphere;
-  other.radius = 0.001;
+  other.numbers = &small;
   ringlet_initial_state initial = RINGLET_INIT(ringlet_initial_state);
   initial.bodies = &other, initial.body_count = 1;
   ringlet_hair* hair = nullptr;
@@ -170,6 +172,54 @@ TEST_F(LiveBodies, ChangeThroughC) {
   ASSERT_EQ(ringlet_positions(hair, &found[0].x, found.size()), RINGLET_OK);
   EXPECT_TRUE(found == *expected.positions());
   ringlet_hair_release(hair);
+}
+
+// Hair with a body that C describes moves as with one of C++; a number that a shape does not have is refused.
+TEST_F(LiveBodies, HaveShapesAndNumbersByNameInC) {
+  const Groom groom = randomGroom({31, 5}, 3);
+  const auto asset = HairAsset::build(device(), groom, {}, {}, {.features = {.bodies = true}});
+  ringlet_asset handle{*asset, device()};
+  for (const BodyForm& form : bodyForms()) {
+    if (form.shape == BodyShape::grid) continue;
+    Body body{.shape = form.shape, .place = {{0.01, -0.03, 0}, {}}};
+    std::vector<ringlet_number> own;
+    std::vector<const char*> foreign;
+    for (const SettingField<Body>& row : bodyNumbers()) {
+      if (!hasNumber(form, row)) {
+        foreign.push_back(row.key);
+      } else if (const auto* number = std::get_if<double Body::*>(&row.member)) {
+        body.** number = 0.011 + 0.001 * static_cast<double>(own.size());
+        own.push_back({row.key, {body.**number}});
+      } else {
+        body.*std::get<Vec3d Body::*>(row.member) = {0.01, 0.02, 0.03};
+        own.push_back({row.key, {0.01, 0.02, 0.03}});
+      }
+    }
+    const std::vector<Body> bodies{body};
+    Simulation expected = *Simulation::create(*asset, {.bodies = bodies});
+    ringlet_body stated = RINGLET_INIT(ringlet_body);
+    stated.shape = form.name.data(), stated.pose = {{0.01, -0.03, 0}, {0, 0, 0, 1}};
+    stated.numbers = own.data(), stated.number_count = static_cast<std::uint32_t>(own.size());
+    ringlet_initial_state initial = RINGLET_INIT(ringlet_initial_state);
+    initial.bodies = &stated, initial.body_count = 1;
+    ringlet_hair* hair = nullptr;
+    ASSERT_EQ(ringlet_hair_create(&handle, &initial, &hair), RINGLET_OK) << ringlet_error_message();
+    for (const double x : {0.02, 0.05}) {
+      const ringlet_pose head{{x, 0, 0}, {0, 0, 0, 0}};
+      ASSERT_EQ(ringlet_step_to(hair, &head), RINGLET_OK);
+      ASSERT_TRUE(expected.stepFrame(HeadPose{{x, 0, 0}, {}}));
+    }
+    std::vector<Vec3f> found(groom.points.size());
+    ASSERT_EQ(ringlet_positions(hair, &found[0].x, found.size()), RINGLET_OK);
+    EXPECT_TRUE(found == *expected.positions()) << form.name;
+    for (const char* key : foreign) {
+      const ringlet_number number{key, {0.01, 0.01, 0.01}};
+      stated.numbers = &number, stated.number_count = 1;
+      EXPECT_EQ(ringlet_hair_set_bodies(hair, &stated, 1), RINGLET_ERROR_INVALID_ARGUMENT)
+          << form.name << " has a " << key;
+    }
+    ringlet_hair_release(hair);
+  }
 }
 
 }  // namespace

@@ -247,7 +247,11 @@ def test_bodies(tmp_path):
     for call in (lambda: ringlet.Body.sphere(0), lambda: ringlet.Body.sphere(-1), lambda: ringlet.Body.sphere(math.nan),
                  lambda: ringlet.Body.capsule(1, -1), lambda: ringlet.Body.box((0, 1, 1)),
                  lambda: ringlet.Body.plane(thickness=2), lambda: ringlet.Body.plane(friction=-1)):
-        with pytest.raises(ringlet.Error):
+        with pytest.raises(ValueError):
+            call()
+    for call in (lambda: ringlet.Body.sphere(1, 1), lambda: ringlet.Body.plane(1), lambda: ringlet.Body.sphere(1, radius=1),
+                 lambda: ringlet.Body.sphere(length=1), lambda: ringlet.Body.box(half_extent=(1, 1, 1))):
+        with pytest.raises(TypeError):
             call()
     points, triangles = ringlet.make_head_mesh()
     few = np.eye(3)

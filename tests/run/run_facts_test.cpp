@@ -23,7 +23,7 @@ TEST(RunFacts, EveryFileThatMovesHairIsAnInput) {
   scene.goalFile = "goal";
   scene.bodies.resize(1);
   scene.bodies[0].file = "body";
-  scene.bodies[0].motion.emplace().file = "motion of a body";
+  scene.bodies[0].moves.emplace().file = "motion of a body";
   scene.maps.resize(1);
   scene.maps[0].file = "map";
   scene.maps[0].texture = "texture";
@@ -70,8 +70,8 @@ TEST(RunFacts, EveryFileCountsByItsContent) {
   scene.output.hairScalpFile = write("hairs.obj", "hairs");
   scene.bodies.resize(2);
   scene.bodies[0].file = writeGltf("body.GLTF");
-  scene.bodies[0].motion.emplace().file = writeGltf("moves.vrm");
-  scene.bodies[1].motion.emplace().file = write("moves.bvh", "moves");
+  scene.bodies[0].moves.emplace().file = writeGltf("moves.vrm");
+  scene.bodies[1].moves.emplace().file = write("moves.bvh", "moves");
   scene.maps.resize(2);
   scene.maps[0].file = write("map.txt", "map");
   scene.maps[1].texture = write("map.png", "picture");

@@ -164,7 +164,7 @@ TEST(SavedScene, FindsItsFiles) {
   std::filesystem::create_directories(folder / "show" / "views");
   SceneFile scene;
   scene.bodies.resize(2);
-  for (SceneBody& body : scene.bodies) body.motion.emplace();
+  for (SceneBody& body : scene.bodies) body.moves.emplace();
   scene.cameras.resize(1);
   scene.fields.resize(1);
   scene.maps.resize(2);
@@ -178,11 +178,11 @@ TEST(SavedScene, FindsItsFiles) {
   for (std::filesystem::path* path :
        {&scene.groom.file, &scene.groom.scalp, &scene.motion.file, &scene.scalp.file, &scene.goalFile,
         &scene.output.hairScalpFile, &scene.cameras[0].file, &scene.fields[0].file, &scene.maps[0].file,
-        &scene.maps[1].texture, &scene.bodies[0].file, &scene.bodies[1].file, &scene.bodies[0].motion->file})
+        &scene.maps[1].texture, &scene.bodies[0].file, &scene.bodies[1].file, &scene.bodies[0].moves->file})
     name(*path);
   scene.motion.kind.clear();
   scene.goal.on = true;
-  scene.bodies[1].motion->file = "/elsewhere/../library/m.bvh";
+  scene.bodies[1].moves->file = "/elsewhere/../library/m.bvh";
   const auto saved = folder / "show" / "views" / "saved.toml";
   ASSERT_TRUE(saveScene(scene, editsOf(scene), 0, saved));
   const std::string text = test::readText(saved);

@@ -23,31 +23,14 @@ std::vector<Vec3f> takeVectors(const float* xyz, std::uint64_t count) {
 // 0 stands for the default.
 double orElse(double number, double standard) { return number == 0 ? standard : number; }
 
-Outcome takeNumber(const ringlet_number& from, ForceField& field) {
-  const std::string_view name = from.name ? from.name : "";
-  const auto* row = fieldNamed(forceFieldNumbers(), name);
-  if (!row) {
-    std::vector<std::string> names;
-    addNames(names, "", forceFieldNumbers());
-    return unknown("number of a field", name, names);
-  }
-  const Vec3d vector{from.value[0], from.value[1], from.value[2]};
-  const auto putInto = [&](auto member) {
-    return put(field.*member, vector.x) || put(field.*member, vector);
-  };
-  if (std::visit(putInto, row->member)) return {};
-  return Outcome::invalid(fmt::format("{}: {} does not take {}", field.name, name, vector.x));
-}
-
 Outcome takeField(const ringlet_field& from, std::uint32_t index, ForceField& field) {
   field.name = fmt::format("field {}", index);
   const auto place = poseOf<BodyPose>(from.pose);
   if (!place) return notFinite(field.name.c_str());
   field.place = *place;
-  if (from.number_count > 0 && !from.numbers)
-    return Outcome::invalid(fmt::format("{} has {} numbers, which are NULL", field.name, from.number_count));
-  for (std::uint32_t k = 0; k < from.number_count; ++k)
-    if (Outcome taken = takeNumber(from.numbers[k], field); !taken.isFine()) return taken;
+  const auto rows = forceFieldNumbers();
+  Outcome taken = takeNumbers(rows, "field", field.name, from.numbers, from.number_count, field);
+  if (!taken.isFine()) return taken;
   if (!from.velocities) return {};
   VelocityGrid grid;
   std::uint64_t count = 1;

@@ -7,6 +7,8 @@
 #include "ringlet/bodies/mesh_grid.h"
 #include "ringlet/c/handles.h"
 #include "ringlet/c/poses.h"
+#include "ringlet/c/setting_values.h"
+#include "ringlet/scene/body_forms.h"
 #include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/hair_frames.h"
 
@@ -82,32 +84,32 @@ Result<std::shared_ptr<const DistanceGrid>> gridOf(const ringlet_body& from, con
   return std::make_shared<const DistanceGrid>(std::move(grid->grid));
 }
 
-Result<Body> bodyOf(const ringlet_body& from, std::uint32_t index) {
-  Body body;
+Outcome takeBody(const ringlet_body& from, std::uint32_t index, Body& body) {
   body.name = fmt::format("body {}", index);
-  body.radius = from.radius, body.length = from.length;
-  body.halfExtents = {from.half_extents[0], from.half_extents[1], from.half_extents[2]};
-  body.thickness = from.thickness, body.friction = from.friction;
+  const BodyForm* form = formNamed(from.shape ? from.shape : "");
+  if (!form) return unknown("shape of a body", from.shape ? from.shape : "", namesIn(shapeNames()));
+  body.shape = form->shape;
+  std::vector<SettingField<Body>> rows;
+  for (const SettingField<Body>& row : bodyNumbers())
+    if (hasNumber(*form, row)) rows.push_back(row);
+  Outcome taken = takeNumbers<Body>(rows, from.shape, body.name, from.numbers, from.number_count, body);
+  if (!taken.isFine()) return taken;
   const auto place = poseOf<BodyPose>(from.pose);
   if (!place) return Error{fmt::format("{} {}", body.name, kWrongPose)};
   body.place = *place;
-  if (from.shape < RINGLET_SPHERE || from.shape > RINGLET_MESH)
-    return Error{fmt::format("{} has a shape that is none: {}", body.name, static_cast<int>(from.shape))};
-  body.shape = static_cast<BodyShape>(from.shape);
-  if (from.shape != RINGLET_MESH) return body;
+  if (body.shape != BodyShape::grid) return {};
   auto grid = gridOf(from, body.name);
   if (!grid) return grid.error();
   body.grid = std::move(*grid);
-  return body;
+  return {};
 }
 
 // All of an array; an empty one may be null.
 Outcome takeBodies(const ringlet_body* from, std::uint32_t count, std::vector<Body>& bodies) {
   if (count > 0 && !hasSize(from)) return Outcome::invalid("there are no bodies that say their size");
   for (std::uint32_t b = 0; b < count; ++b) {
-    auto body = bodyOf(taken(from, b), b);
-    if (!body) return body.error();
-    bodies.push_back(std::move(*body));
+    if (Outcome outcome = takeBody(taken(from, b), b, bodies.emplace_back()); !outcome.isFine())
+      return outcome;
   }
   return {};
 }
@@ -179,9 +181,6 @@ Outcome createHair(const ringlet_asset& asset, const InitialState& initial, ring
 using namespace ringlet;
 using namespace ringlet::c;
 
-static_assert(int(BodyShape::sphere) == RINGLET_SPHERE && int(BodyShape::capsule) == RINGLET_CAPSULE &&
-              int(BodyShape::plane) == RINGLET_PLANE && int(BodyShape::box) == RINGLET_BOX &&
-              int(BodyShape::grid) == RINGLET_MESH);
 static_assert(kFeatureNames[0].member == &Features::bodies && kFeatureNames[1].member == &Features::roots &&
               kFeatureNames[2].member == &Features::forces && kFeatureNames[3].member == &Features::goals &&
               kFeatureNames[4].member == &Features::fields && RINGLET_FIELDS == 1 << 4);

@@ -170,7 +170,7 @@ ringlet_result ringlet_mesh_get(const ringlet_mesh* from, ringlet_body* body) {
         !wrong.isFine())
       return wrong;
     ringlet_body filled = taken(body);
-    filled.shape = RINGLET_MESH;
+    filled.shape = "mesh";
     filled.vertices = from->vertices.data(), filled.triangles = from->triangles.data();
     filled.vertex_count = static_cast<std::uint32_t>(from->vertices.size() / 3);
     filled.triangle_count = static_cast<std::uint32_t>(from->triangles.size() / 3);

@@ -171,21 +171,23 @@ typedef struct ringlet_pose {
   double rotation[4]; /* quaternion x, y, z, w, which is normalized; four zeros are the identity */
 } ringlet_pose;
 
-typedef enum ringlet_shape {
-  RINGLET_SPHERE = 0,  /* has a radius */
-  RINGLET_CAPSULE = 1, /* has a radius, about a line of `length` along Y with its middle at the origin */
-  RINGLET_PLANE = 2,   /* the half space below Y = 0 */
-  RINGLET_BOX = 3,     /* has half_extents */
-  RINGLET_MESH = 4     /* has vertices and triangles, which are closed surfaces */
-} ringlet_shape;
+/* A number by its name. `value`: the first of it, or x, y and z of what is a vector; 0 or 1 of what is true
+   or false. */
+typedef struct ringlet_number {
+  const char* name;
+  double value[3];
+} ringlet_number;
 
-/* A solid body that hair stays out of. */
+/* A solid body that hair stays out of. `shape` is the name of one of bodyForms (scene/body_forms.h): sphere,
+   with a radius; capsule, with a radius about a line of this length along Y, its middle at the origin; plane,
+   the half space below Y = 0; box, with half_extents; mesh, closed surfaces of `vertices` and `triangles`.
+   Its numbers have the names of bodyNumbers: these sizes, thickness, which is the distance that hair keeps
+   from the surface, and friction, the coefficient of Coulomb friction; those left out have their defaults. */
 typedef struct ringlet_body {
   size_t struct_size;
-  ringlet_shape shape;
-  double radius, length, half_extents[3];
-  double thickness;      /* distance that hair keeps from the surface */
-  double friction;       /* coefficient of Coulomb friction; 0.2 is usual */
+  const char* shape;
+  const ringlet_number* numbers;
+  uint32_t number_count;
   ringlet_pose pose;     /* in the head's frame; the head carries the body unless frames have body poses */
   const float* vertices; /* x, y, z */
   uint32_t vertex_count;
@@ -277,13 +279,6 @@ typedef struct ringlet_goals {
 } ringlet_goals;
 /* Sets goals, which act until others are set. */
 ringlet_result ringlet_hair_set_goals(ringlet_hair* hair, const ringlet_goals* goals);
-
-/* A number by its name. `value`: the first of it, or x, y and z of what is a vector; 0 or 1 of what is true
-   or false. */
-typedef struct ringlet_number {
-  const char* name;
-  double value[3];
-} ringlet_number;
 
 /* What acts at places in the world: accelerations [m/s^2], or with drag velocities of air [m/s]. Its numbers
    have the names of forceFieldNumbers (scene/force_field.h): axis, about_axis, axial, radial, around, core,

@@ -6,13 +6,16 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "ringlet/base/nearest_name.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/c/handles.h"
+#include "ringlet/scene/setting_field.h"
 
 namespace ringlet::c {
 
@@ -44,5 +47,29 @@ inline bool put(bool& to, double value) { return (value == 0 || value == 1) && (
 inline bool put(Vec3d& to, Vec3d value) { return to = value, true; }
 bool put(auto&, double) { return false; }
 bool put(auto&, Vec3d) { return false; }
+
+// Numbers by their names into `owner`, which messages call `name`, and its numbers "number of a `kind`".
+template <class Owner>
+Outcome takeNumbers(std::span<const SettingField<Owner>> rows, const char* kind, const std::string& name,
+                    const ringlet_number* numbers, std::uint32_t count, Owner& owner) {
+  if (count > 0 && !numbers)
+    return Outcome::invalid(fmt::format("{} has {} numbers, which are NULL", name, count));
+  for (const ringlet_number& number : std::span(numbers, count)) {
+    const std::string_view key = number.name ? number.name : "";
+    const SettingField<Owner>* row = fieldNamed(rows, key);
+    if (!row) {
+      std::vector<std::string> names;
+      addNames(names, "", rows);
+      return unknown(fmt::format("number of a {}", kind), key, names);
+    }
+    const Vec3d vector{number.value[0], number.value[1], number.value[2]};
+    const auto putInto = [&](auto member) {
+      return put(owner.*member, vector.x) || put(owner.*member, vector);
+    };
+    if (!std::visit(putInto, row->member))
+      return Outcome::invalid(fmt::format("{}: {} does not take {}", name, key, vector.x));
+  }
+  return {};
+}
 
 }  // namespace ringlet::c

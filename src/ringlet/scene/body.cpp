@@ -8,27 +8,17 @@
 #include "ringlet/base/assert.h"
 #include "ringlet/scene/body_forms.h"
 #include "ringlet/scene/outside_numbers.h"
+#include "ringlet/scene/setting_check.h"
 
 namespace ringlet {
 
 Status checkBody(const Body& body) {
-  const auto fail = [&](const std::string& what) {
-    return Error{fmt::format("the body {} {}", body.name.empty() ? "without a name" : body.name, what)};
-  };
-  const BodyForm& form = formOf(body.shape);
-  if (form.hasRadius && !(body.radius > 0 && body.radius <= 1000))
-    return fail(fmt::format("has a radius of {} m; it takes more than 0 and at most 1000", body.radius));
-  if (form.hasLength && !(body.length >= 0 && body.length <= 1000))
-    return fail(fmt::format("has a length of {} m; it takes 0 to 1000", body.length));
-  const Vec3d& half = body.halfExtents;
-  const auto isExtent = [](double x) { return x > 0 && x <= 1000; };
-  if (form.hasHalfExtents && !(isExtent(half.x) && isExtent(half.y) && isExtent(half.z)))
-    return fail(fmt::format("has half extents of {} x {} x {} m; each takes more than 0, and at most 1000",
-                            half.x, half.y, half.z));
-  if (!(body.thickness >= 0 && body.thickness <= 1))
-    return fail(fmt::format("keeps hair {} m away; it takes 0 to 1", body.thickness));
-  if (!(body.friction >= 0 && body.friction <= 100))
-    return fail(fmt::format("has a friction of {}; it takes 0 to 100", body.friction));
+  const std::string owner = fmt::format("the body {}", body.name.empty() ? "without a name" : body.name);
+  const auto fail = [&](const std::string& what) { return Error{fmt::format("{} {}", owner, what)}; };
+  for (const SettingField<Body>& number : bodyNumbers()) {
+    if (!hasNumber(formOf(body.shape), number)) continue;
+    if (Status checked = checkRow(number, body, owner + ": "); !checked) return checked;
+  }
   if (!contains(kPosePlace, body.place.position))
     return fail(fmt::format("stands {} m away; it takes 1e9 along each axis", length(body.place.position)));
   if (body.shape != BodyShape::grid) return {};

@@ -35,9 +35,6 @@ constexpr BodyForm kForms[] = {
     {.shape = BodyShape::sphere,
      .name = "sphere",
      .onDevice = DeviceForm::box,
-     .hasRadius = true,
-     .hasLength = false,
-     .hasHalfExtents = false,
      .halfExtents = noExtents,
      .rounding = radiusOf,
      .reach = radiusOf,
@@ -45,9 +42,6 @@ constexpr BodyForm kForms[] = {
     {.shape = BodyShape::capsule,
      .name = "capsule",
      .onDevice = DeviceForm::box,
-     .hasRadius = true,
-     .hasLength = true,
-     .hasHalfExtents = false,
      .halfExtents =
          [](const Body& body) {
            return Vec3d{0, body.length / 2, 0};
@@ -58,9 +52,6 @@ constexpr BodyForm kForms[] = {
     {.shape = BodyShape::plane,
      .name = "plane",
      .onDevice = DeviceForm::plane,
-     .hasRadius = false,
-     .hasLength = false,
-     .hasHalfExtents = false,
      .halfExtents = noExtents,
      .rounding = noRounding,
      .reach = [](const Body&) { return std::numeric_limits<double>::infinity(); },
@@ -68,9 +59,6 @@ constexpr BodyForm kForms[] = {
     {.shape = BodyShape::box,
      .name = "box",
      .onDevice = DeviceForm::box,
-     .hasRadius = false,
-     .hasLength = false,
-     .hasHalfExtents = true,
      .halfExtents = [](const Body& body) { return body.halfExtents; },
      .rounding = noRounding,
      .reach = [](const Body& body) { return length(body.halfExtents); },
@@ -78,9 +66,6 @@ constexpr BodyForm kForms[] = {
     {.shape = BodyShape::grid,
      .name = "mesh",
      .onDevice = DeviceForm::grid,
-     .hasRadius = false,
-     .hasLength = false,
-     .hasHalfExtents = false,
      .halfExtents = noExtents,
      .rounding = noRounding,
      .reach = reachOfGrid,
@@ -97,12 +82,59 @@ const BodyForm& formOf(BodyShape shape) {
   return *form;
 }
 
-std::string shapesWith(bool BodyForm::*size) {
+const BodyForm* formNamed(std::string_view name) {
+  const auto form = std::ranges::find(kForms, name, &BodyForm::name);
+  return form == std::end(kForms) ? nullptr : &*form;
+}
+
+std::string shapeNames() {
   std::string names;
-  for (const BodyForm& form : kForms) {
-    if (!size || form.*size) names += (names.empty() ? "" : ", ") + std::string(form.name);
-  }
+  for (const BodyForm& form : kForms) names += (names.empty() ? "" : ", ") + std::string(form.name);
   return names;
+}
+
+std::span<const SettingField<Body>> bodyNumbers() {
+  static const SettingField<Body> all[] = {
+      {.key = "radius",
+       .unit = "m",
+       .standard = "",
+       .effect = "Radius of a sphere or a capsule.",
+       .member = &Body::radius,
+       .allowed = {1e-6, 1000},
+       .onlyWith = "sphere, capsule"},
+      {.key = "length",
+       .unit = "m",
+       .standard = "",
+       .effect = "Length of a capsule's axis, centred at the origin.",
+       .member = &Body::length,
+       .allowed = {0, 1000},
+       .onlyWith = "capsule"},
+      {.key = "half_extents",
+       .unit = "m",
+       .standard = "",
+       .effect = "Half of the box's size, centred at the origin.",
+       .member = &Body::halfExtents,
+       .allowed = {1e-6, 1000},
+       .onlyWith = "box"},
+      {.key = "thickness",
+       .unit = "m",
+       .standard = "",
+       .effect = "Distance that hair keeps from the surface.",
+       .member = &Body::thickness,
+       .allowed = {0, 1}},
+      {.key = "friction",
+       .unit = "1",
+       .standard = "",
+       .effect = "Coulomb's friction coefficient between hair and body.",
+       .member = &Body::friction,
+       .allowed = {0, 100}},
+  };
+  return all;
+}
+
+bool hasNumber(const BodyForm& form, const SettingField<Body>& number) {
+  const std::vector<std::string> shapes = namesIn(number.onlyWith);
+  return shapes.empty() || std::ranges::find(shapes, form.name) != shapes.end();
 }
 
 }  // namespace ringlet

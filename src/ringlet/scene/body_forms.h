@@ -1,5 +1,6 @@
-// What there is to know of each shape of a body: its name, which sizes it has, how far it reaches, how far a
-// place is from it. Scene files, checks, packing and measures read it here.
+// What there is to know of bodies: of each shape its name, how far it reaches, how far a place is from it; of
+// each number its name, range and the shapes that have it. Scene files, checks, packing, measures, C and
+// Python read it here.
 #pragma once
 
 #include <span>
@@ -7,6 +8,7 @@
 #include <string_view>
 
 #include "ringlet/scene/body.h"
+#include "ringlet/scene/setting_field.h"
 
 namespace ringlet {
 
@@ -14,7 +16,6 @@ struct BodyForm {
   BodyShape shape;
   std::string_view name;  // in scene files and messages
   DeviceForm onDevice;
-  bool hasRadius, hasLength, hasHalfExtents;
 
   /// As the device's form takes it: half extents, and how far further out its surface is [m].
   Vec3d (*halfExtents)(const Body&);
@@ -30,8 +31,18 @@ struct BodyForm {
 /// In the order of BodyShape.
 std::span<const BodyForm> bodyForms();
 const BodyForm& formOf(BodyShape shape);
+inline std::string_view nameOf(BodyShape shape) { return formOf(shape).name; }
 
-/// The names of the shapes that have this size, or of all where it is null, with ", " between.
-std::string shapesWith(bool BodyForm::*size);
+/// Null for an unknown name.
+const BodyForm* formNamed(std::string_view name);
+
+/// The names of all shapes, with ", " between.
+std::string shapeNames();
+
+/// Its numbers, but for the place; `onlyWith` has the names of the shapes that have it.
+std::span<const SettingField<Body>> bodyNumbers();
+
+/// Whether bodies of this shape have the number.
+bool hasNumber(const BodyForm& form, const SettingField<Body>& number);
 
 }  // namespace ringlet

@@ -18,6 +18,16 @@
 
 namespace ringlet {
 
+enum class BodyShape;  // scene/body.h
+
+template <class Owner>
+using SettingMember =
+    std::variant<double Owner::*, std::optional<double> Owner::*, int Owner::*, std::optional<int> Owner::*,
+                 std::uint32_t Owner::*, bool Owner::*, std::string Owner::*, std::filesystem::path Owner::*,
+                 Vec3d Owner::*, std::optional<Vec3d> Owner::*, std::optional<Quatd> Owner::*,
+                 std::vector<std::string> Owner::*, ContactTaper Owner::*, ContactMethod Owner::*,
+                 BodyShape Owner::*>;
+
 /// One whose value is a part of an Owner: ContactSettings, AirSettings, a table of a scene file.
 template <class Owner>
 struct SettingField {
@@ -25,11 +35,7 @@ struct SettingField {
   const char* unit;      // of numbers; "" for none
   const char* standard;  // the default in words; "" for the Owner's own default
   const char* effect;    // one sentence
-  std::variant<double Owner::*, std::optional<double> Owner::*, int Owner::*, std::optional<int> Owner::*,
-               std::uint32_t Owner::*, bool Owner::*, std::string Owner::*, std::filesystem::path Owner::*,
-               Vec3d Owner::*, std::optional<Vec3d> Owner::*, std::optional<Quatd> Owner::*,
-               std::vector<std::string> Owner::*, ContactTaper Owner::*, ContactMethod Owner::*>
-      member;
+  SettingMember<Owner> member;
   NumberRange allowed{};   // of a number, or of each of several
   std::string choices{};   // of a text or a list of texts, separated by commas; "" for any
   std::string onlyWith{};  // the kinds, shapes or sources that have it, separated by commas; "" for all
@@ -39,6 +45,15 @@ struct SettingField {
     SettingField changing = *this;
     changing.isLive = true;
     return changing;
+  }
+
+  /// The same setting of a type that has Owner as its base.
+  template <class Derived>
+  SettingField<Derived> of() const {
+    const auto inherited = []<class T>(T Owner::*part) {
+      return SettingMember<Derived>(static_cast<T Derived::*>(part));
+    };
+    return {key, unit, standard, effect, std::visit(inherited, member), allowed, choices, onlyWith, isLive};
   }
 };
 

@@ -48,7 +48,8 @@ int main(void) {
   check(ringlet_asset_build(device, &groom, settings, material, &options, &asset));
 
   ringlet_body sphere = RINGLET_INIT(ringlet_body);
-  sphere.shape = RINGLET_SPHERE, sphere.radius = 0.03, sphere.pose.position[1] = -0.1;
+  ringlet_number radius = {"radius", {0.03}};
+  sphere.shape = "sphere", sphere.numbers = &radius, sphere.number_count = 1, sphere.pose.position[1] = -0.1;
   ringlet_initial_state initial = RINGLET_INIT(ringlet_initial_state);
   initial.bodies = &sphere, initial.body_count = 1;
   ringlet_hair* hair = NULL;

@@ -20,6 +20,7 @@
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/material_table.h"
 #include "ringlet/rest/toml_file.h"
+#include "ringlet/scene/body_forms.h"
 #include "ringlet/scenes/file/scene_change.h"
 #include "ringlet/scenes/file/scene_fields.h"
 #include "ringlet/scenes/file/scene_text.h"
@@ -278,6 +279,9 @@ class SceneReader {
       return named<ContactTaper>(kContactTaperNames, node);
     } else if constexpr (std::is_same_v<Value, ContactMethod>) {
       return named<ContactMethod>(kContactMethodNames, node);
+    } else if constexpr (std::is_same_v<Value, BodyShape>) {
+      const BodyForm* form = formNamed(node.value_exact<std::string_view>().value_or(""));
+      return form ? std::optional(form->shape) : std::nullopt;
     } else {
       static_assert(std::is_same_v<Value, std::vector<std::string>>);
       const toml::array* list = node.as_array();
@@ -616,9 +620,10 @@ class SceneReader {
       missing_.add(lineOf(table), fmt::format("found a body without a shape; expected shape = one of {}",
                                               bodyFields()[1].choices));
     }
-    refuseForeign(table, "body", bodyFields(), body.shape, "the shape");
+    const BodyForm* form = formNamed(table["shape"].value_exact<std::string_view>().value_or(""));
+    refuseForeign(table, "body", bodyFields(), form ? std::string(form->name) : "", "the shape");
     const toml::node *path = table.get("file"), *generator = table.get("generate");
-    if (body.shape == "mesh" && !path == !generator) {
+    if (form && form->shape == BodyShape::grid && !path == !generator) {
       (path ? problems_ : missing_)
           .add(lineOf(path ? *path : table),
                fmt::format("found a mesh with {}; expected one of file and generate",
@@ -638,10 +643,10 @@ class SceneReader {
     }
     if (!moves) return;
     if (const auto* text = moves->as_string(); text && text->get() == "still") {
-      body.motion = SceneMotion{.kind = "still"};
+      body.moves = SceneMotion{.kind = "still"};
     } else if (moves->is_table()) {
       problems_.addUnknownKeys(*moves->as_table(), "body.moves", knownKeys());
-      readMotion(*moves->as_table(), "body.moves", body.motion.emplace(), true);
+      readMotion(*moves->as_table(), "body.moves", body.moves.emplace(), true);
     } else if (!text || text->get() != "head") {
       problems_.addFound(*moves, "body.moves",
                          "\"head\", \"still\" or a motion, as in { kind = \"spin\" }" +

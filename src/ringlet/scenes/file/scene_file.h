@@ -29,6 +29,7 @@
 #include "ringlet/groom/generate.h"
 #include "ringlet/rest/material_file.h"
 #include "ringlet/scene/air.h"
+#include "ringlet/scene/body.h"
 #include "ringlet/scene/contact_settings.h"
 #include "ringlet/scene/goal.h"
 #include "ringlet/scene/settings.h"
@@ -133,12 +134,8 @@ struct SceneSimulation {
   int forceLoops = Settings{}.forceLoops, dampingLoops = Settings{}.dampingLoops;
 };
 
-struct SceneBody {
-  std::string name;
-  std::string shape;  // a name of scene/body_forms.h
-  double radius = 0.1, length = 0.1;
-  Vec3d halfExtents{0.1, 0.1, 0.1};
-
+/// Its place, grid and motion are made of what stands here (bodyOf in load/scene_parts.h).
+struct SceneBody : Body {
   // Of a mesh.
   std::filesystem::path file;
   std::string generate;                 // head, in place of a file
@@ -146,13 +143,12 @@ struct SceneBody {
   int cells = 64;                       // of its distance grid, along its longest side
   double scale = 1;
 
-  double thickness = 0, friction = 0.2;
   Vec3d position{}, rotateDegrees{};  // [m]
   std::string bind = "carrier";       // or world, as the groom's
   std::optional<int> bindFrame;       // unset: the groom's
 
-  std::string joint;                  // of the head's motion file; or
-  std::optional<SceneMotion> motion;  // its own, in the world; neither: the head carries it
+  std::string joint;                 // of the head's motion file; or
+  std::optional<SceneMotion> moves;  // its own motion, in the world; neither: the head carries it
 };
 
 /// A camera for pictures: at a place, or of a glTF file.

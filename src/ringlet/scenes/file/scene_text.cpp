@@ -10,6 +10,7 @@
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/material_table.h"
 #include "ringlet/rest/toml_file.h"
+#include "ringlet/scene/body_forms.h"
 #include "ringlet/scenes/frames/scene_keys.h"
 #include "ringlet/scenes/load/scene_parts.h"
 
@@ -24,6 +25,7 @@ std::string valueText(bool value) { return value ? "true" : "false"; }
 std::string valueText(const std::string& value) { return tomlText(value); }
 std::string valueText(ContactTaper value) { return tomlText(nameOf(value)); }
 std::string valueText(ContactMethod value) { return tomlText(nameOf(value)); }
+std::string valueText(BodyShape value) { return tomlText(std::string(nameOf(value))); }
 std::string valueText(const std::filesystem::path& value) { return tomlText(value.generic_string()); }
 std::string valueText(Vec3d v) {
   return fmt::format("[{}, {}, {}]", tomlNumber(v.x), tomlNumber(v.y), tomlNumber(v.z));
@@ -94,7 +96,8 @@ std::string linesOf(std::span<const SceneField<Owner>> fields, const Owner& owne
           }
         },
         field.member);
-    if (value.empty() || value == usual) continue;
+    const bool isRequired = field.standard == std::string("required");
+    if (value.empty() || (value == usual && !isRequired)) continue;
     const std::string unit =
         *field.unit && field.unit != std::string("1") ? fmt::format("[{}] ", field.unit) : "";
     lines += fmt::format("{} = {}  # {}{}\n", field.key, value, unit, field.effect);
@@ -121,8 +124,8 @@ std::string motionText(const SceneMotion& motion, const std::string& name,
 
 std::string bodyText(const SceneBody& body, const std::filesystem::path& folder) {
   std::string lines = linesOf(bodyFields(), body, SceneBody{}, folder);
-  if (!body.motion) return headed("[[body]]", lines);
-  const SceneMotion& motion = *body.motion;
+  if (!body.moves) return headed("[[body]]", lines);
+  const SceneMotion& motion = *body.moves;
   const bool isStill = motion.kind == "still" && motion.start == Vec3d{};
   if (isStill) lines += "moves = \"still\"\n";
   return headed("[[body]]", lines) + (isStill ? "" : motionText(motion, "body.moves", folder));

@@ -25,6 +25,7 @@
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/material_presets.h"
 #include "ringlet/rest/rest_state.h"
+#include "ringlet/scene/body_forms.h"
 #include "ringlet/scenes/load/idle_dials.h"
 #include "ringlet/scenes/load/motion_reach.h"
 #include "ringlet/scenes/load/scene_maps.h"
@@ -113,12 +114,12 @@ namespace {
 // The way of a joint or of a body's own file.
 Status loadMotion(const SceneBody& scene, const SceneFile& file, Body& body,
                   std::vector<std::string>& warnings) {
-  if (scene.joint.empty() && (!scene.motion || scene.motion->file.empty())) return {};
+  if (scene.joint.empty() && (!scene.moves || scene.moves->file.empty())) return {};
   auto motion = scene.joint.empty()
-                    ? readMotionFile(motionFileOf(*scene.motion), file.groom.up == "Z", warnings)
+                    ? readMotionFile(motionFileOf(*scene.moves), file.groom.up == "Z", warnings)
                     : jointMotion(file, scene.joint, warnings);
   if (!motion) return motion.error();
-  if (scene.joint.empty()) motion->start = scene.motion->start;
+  if (scene.joint.empty()) motion->start = scene.moves->start;
   body.motion = std::move(*motion);
   return {};
 }
@@ -348,9 +349,9 @@ Status addHairScalp(const SceneFile& scene, LoadedScene& loaded) {
   if (name.empty()) return {};
   for (std::size_t i = 0; i < loaded.bodies.size(); ++i) {
     if (loaded.bodies[i].name != name) continue;
-    if (scene.bodies[i].shape != "mesh")
+    if (scene.bodies[i].shape != BodyShape::grid)
       return Error{fmt::format("the body {} that hairs grow on is a {}; expected a mesh", name,
-                               scene.bodies[i].shape)};
+                               nameOf(scene.bodies[i].shape))};
     std::vector<std::string> said;  // with the body
     auto mesh = meshOf(scene.bodies[i], scene.groom, loaded.groom.metresPerUnit, said);
     if (!mesh) return mesh.error();
@@ -408,7 +409,7 @@ Result<std::vector<Body>> loadBodies(const SceneFile& scene, double metresPerUni
     const SceneBody& stated = scene.bodies[i];
     Body body = bodyOf(stated, i, upOf(scene.groom));
     Status loaded = loadMotion(stated, scene, body, warnings);
-    if (loaded && stated.shape == "mesh")
+    if (loaded && stated.shape == BodyShape::grid)
       loaded = loadMeshBody(stated, scene.groom, metresPerUnit, body, warnings);
     if (!loaded) {
       return Error{fmt::format("the body {}: {}", body.name, loaded.error().message), loaded.error().fault};

@@ -75,8 +75,8 @@ std::vector<std::string> motionReach(const SceneFile& scene, const Motion& head,
   add(endsEarly(scene.motion, head, "the head", settings, frameCount));
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const SceneBody& stated = scene.bodies[b];
-    if (stated.motion && bodies[b].motion)
-      add(endsEarly(*stated.motion, *bodies[b].motion, "the body " + bodies[b].name, settings, frameCount));
+    if (stated.moves && bodies[b].motion)
+      add(endsEarly(*stated.moves, *bodies[b].motion, "the body " + bodies[b].name, settings, frameCount));
   }
   add(onlyJumps(scene.motion, head, settings, frameCount));
   return sentences;

@@ -169,17 +169,10 @@ Settings settingsOf(const SceneFile& scene) {
 }
 
 Body bodyOf(const SceneBody& body, std::size_t index, Vec3d up) {
-  Body result;
-  result.name = body.name.empty() ? fmt::format("{} {}", body.shape, index + 1) : body.name;
-  for (const BodyForm& form : bodyForms())
-    if (form.name == body.shape) result.shape = form.shape;
-  result.radius = body.radius;
-  result.length = body.length;
-  result.halfExtents = body.halfExtents;
-  result.thickness = body.thickness;
-  result.friction = body.friction;
+  Body result = body;
+  if (result.name.empty()) result.name = fmt::format("{} {}", nameOf(body.shape), index + 1);
   result.place = {body.position, turnOfDegrees(body.rotateDegrees)};
-  if (body.motion && body.motion->file.empty()) result.motion = motionOf(*body.motion, up);
+  if (body.moves && body.moves->file.empty()) result.motion = motionOf(*body.moves, up);
   return result;
 }
 
@@ -210,10 +203,9 @@ SceneFile sceneFileOf(const BuiltinScene& scene, const std::filesystem::path& gr
   for (const Body& body : scene.bodies) {
     RINGLET_ASSERT(body.shape == BodyShape::grid, "built-in scenes have no bodies but the generated head");
     SceneBody head;
-    head.name = body.name;
-    head.shape = "mesh";
+    static_cast<Body&>(head) = body;
+    head.grid = nullptr;
     head.generate = "head";
-    head.friction = body.friction;
     file.bodies.push_back(std::move(head));
   }
 

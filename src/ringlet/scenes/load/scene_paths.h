@@ -19,7 +19,7 @@ void forEachFileOf(Scene& scene, const Visit& visit) {
         scene.output.hairScalpFile);
   for (auto& body : scene.bodies) {
     named(body.file);
-    if (body.motion) named(body.motion->file);
+    if (body.moves) named(body.moves->file);
   }
   for (auto& camera : scene.cameras) named(camera.file);
   for (auto& field : scene.fields) named(field.file);
