@@ -21,14 +21,14 @@ namespace ringlet {
 namespace {
 
 constexpr std::string_view kMagic = "RGLHAIR1";
-constexpr std::size_t kHashed = 16;  // from here on
+constexpr std::size_t kHashed = 16;  // the checksum covers the bytes from here on
 
 template <class T>
 struct IsOptional : std::false_type {};
 template <class T>
 struct IsOptional<std::optional<T>> : std::true_type {};
 
-// Settings have none of the types that are left out.
+// Settings contain none of the types that this function does not handle.
 template <class T>
 void add(Archive& facts, T value) {
   if constexpr (IsOptional<T>::value) {
@@ -54,7 +54,7 @@ void addSettings(Archive& facts, const Settings& settings) {
   addFields(facts, goalFields(), settings.goal);
 }
 
-// Of strands' own factors the rest state has what they do.
+// The strands' own factors are left out: the rest state, which is hashed too, contains their effect.
 void addMaterial(Archive& facts, const Material& material) {
   addFields(facts, materialParameters(), material);
   addFields(facts, variationParameters(), material.variation);

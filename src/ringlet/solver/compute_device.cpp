@@ -10,18 +10,18 @@
 namespace ringlet {
 namespace {
 
-// True of lavapipe's compiler. A CPU device whose driver does not state its name is treated as lavapipe.
+// True of lavapipe's compiler. A CPU device whose driver does not state its name counts as lavapipe.
 bool endsLoopsEarly(const gpu::DeviceProperties& p) {
   return p.driverId == VK_DRIVER_ID_MESA_LLVMPIPE || (p.driverId == 0 && p.type == "cpu");
 }
 
-// NVIDIA's compiler makes no kernel of a longer run in memory (580.159, an H200: among bodies 32 yes, 33 no,
-// of hair alone 48 yes, 50 no, whatever the number of lanes).
+// Longer runs in memory make NVIDIA's compiler fail (580.159, H200). With bodies 32 compiles and 33 does not;
+// for hair alone 48 does and 50 does not, whatever the number of lanes.
 constexpr std::uint32_t kLongestRunInMemoryOfNvidia = 32;
 
 DeviceLimits limitsOf(const gpu::DeviceProperties& p) {
   DeviceLimits limits;
-  // A strand lies within a workgroup too, whatever the width of a subgroup.
+  // A strand must fit a workgroup too, whatever the width of a subgroup.
   limits.subgroupSize = std::min(p.subgroupSize, kStrandGroupSize);
   limits.hasSubgroupShuffle = p.hasSubgroupShuffle;
   limits.isCpu = p.isCpu;

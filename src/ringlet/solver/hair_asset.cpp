@@ -30,8 +30,8 @@ std::uint64_t lanesOf(std::span<const StrandRange> ranges) {
   return lanes;
 }
 
-// Plans for the whole groom, so that the bits of a strand do not depend on which others are stepped here.
-// The first strands are a part's border. There are no ranges if all strands are rigid.
+// Plans for the whole groom, so that the bits of a strand do not depend on which others are stepped here. The
+// first borderCount strands are the part's border. There are no ranges if all strands are rigid.
 Result<std::vector<StrandRange>> rangesOf(std::span<const std::uint32_t> counts, std::size_t borderCount,
                                           std::span<const std::uint32_t> wholeCounts,
                                           const DeviceLimits& limits, const KernelChoice& choice,
@@ -48,7 +48,7 @@ Result<std::vector<StrandRange>> rangesOf(std::span<const std::uint32_t> counts,
   return ranges;
 }
 
-// Restricts a groom in parts to what the link's own part knows.
+// Restricts the rest state of a groom in parts to what the link's own part needs.
 Result<RestHalo> restrictTo(const RestHair& hair, const PartLink& link) {
   const auto partOf = partOfEach(link.parts(), hair.state);
   if (!partOf) return partOf.error();
@@ -57,7 +57,7 @@ Result<RestHalo> restrictTo(const RestHair& hair, const PartLink& link) {
   return halo;
 }
 
-// The rest state of what is simulated here.
+// The rest state of the strands that are simulated here.
 struct AssetRest {
   RestState state;
   std::optional<RestContacts> contacts;
@@ -86,7 +86,8 @@ Result<AssetRest> restOf(const Groom& groom, const Material& material, const Set
   return AssetRest{std::move(rest), std::move(contacts), std::move(volume), std::move(halo)};
 }
 
-// Without what would be each head's own in a dispatch of many; none of it changes while hair moves.
+// Whether heads with these settings can share a dispatch: none of the features is on whose data each head
+// holds for itself. None of these settings can change while hair moves.
 bool isByItself(const Settings& settings, const KernelChoice& choice) {
   return settings.integrator == Integrator::jacobi && !settings.contacts.on && !settings.air.on &&
          !choice.features.any() && !choice.taps;
@@ -147,7 +148,7 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
     self->places = std::move(*places);
   }
   if (const auto plan = self->plan(self->choice.features); !plan)
-    return plan.error();  // before what is large
+    return plan.error();  // before the large buffers are made
   if (Status status = self->makeConstants(); !status) return status.error();
   self->rest.particles = {};  // they are on the device
   return HairAsset(std::move(self));

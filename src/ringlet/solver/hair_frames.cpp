@@ -15,7 +15,7 @@
 
 namespace ringlet {
 
-// For whoever records frames of several heads.
+// Access to simulations for the functions that record frames of several heads.
 class HairFrames {
  public:
   static gpu::Device& device(std::span<const HairFrame> frames) { return of(frames.front()).device().gpu(); }
@@ -37,7 +37,7 @@ class HairFrames {
   static Simulation::Implementation& of(const HairFrame& frame) { return of(*frame.hair); }
 };
 
-// Those that stand in a row come in its order, so that a dispatch can step several.
+// Sorts heads of one row by their place in it, so that one dispatch can step several.
 std::vector<HairFrame> HairFrames::inRows(std::span<const HairFrame> frames) {
   std::vector<HairFrame> ordered(frames.begin(), frames.end());
   const auto placeOf = [](const HairFrame& frame) {
@@ -109,8 +109,7 @@ std::size_t Simulation::Implementation::mostHeadsOfDispatch() const {
   return std::max(1u, asset->limits.maxGroupCount / groups);
 }
 
-// Whether the dispatches of the head that stands before this one in its row, for one head more, step this
-// one.
+// Whether this head can join the dispatches of the head just before it in the same row, as one head more.
 bool Simulation::Implementation::goesWith(const Implementation& before) const {
   const auto isOfRow = [](const Implementation& one) {
     return one.kernels.strands.areOfHeads && one.buffers.sharesConstants() && !one.stillness.sleeps();
@@ -122,8 +121,8 @@ bool Simulation::Implementation::goesWith(const Implementation& before) const {
   return std::ranges::equal(std::as_bytes(std::span(&own, 1)), std::as_bytes(std::span(&others, 1)));
 }
 
-// Beside what the list has of other heads. The submission's length is the host's. `heads`: as FrameRecording
-// has them.
+// Records the frame beside those of other heads in the list. The caller decides the length of the submission.
+// `heads`: see FrameRecording.
 Status Simulation::Implementation::recordBeside(gpu::CommandList& list, bool works, std::uint32_t heads) {
   const std::size_t slot = frames.slotNumber(frames.submitted++);
   if (!works) {

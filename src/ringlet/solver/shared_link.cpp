@@ -12,11 +12,11 @@
 
 namespace ringlet {
 
-// A reusable barrier: all wait for the last.
+// A reusable barrier: every part waits for the last one.
 struct SharedLink::Meeting {
   explicit Meeting(std::size_t partCount) : messages(partCount), numbers(partCount) {}
 
-  // The others are rarely late, and waking a thread takes longer than they are.
+  // Spins before it sleeps: the others are rarely late by more than the time it takes to wake a thread.
   Status wait() {
     std::unique_lock lock(mutex);
     const std::uint64_t now = round;
@@ -38,7 +38,7 @@ struct SharedLink::Meeting {
   std::size_t arrived = 0;
   std::atomic<std::uint64_t> round = 0;
   std::optional<Error> failure;
-  // Of each part, while all read them.
+  // Of each part; valid while all parts read them.
   std::vector<std::span<const Message>> messages;
   std::vector<const void*> numbers;
 };

@@ -1,5 +1,5 @@
-// Implements solver/simulation.h, less its frames (simulation_frames.cpp) and kernels
-// (simulation_kernels.cpp): what is made at creation, and the ways to and from the hair's state.
+// Implements solver/simulation.h, except its frames (simulation_frames.cpp) and kernels
+// (simulation_kernels.cpp): creation, and reading and writing the hair's state.
 #include "ringlet/solver/simulation.h"
 
 #include <fmt/format.h>
@@ -24,14 +24,14 @@
 namespace ringlet {
 namespace {
 
-// Limit of a submission [s]; 0 for a CPU device, which no desktop watches.
+// Limit of a submission [s]; 0 for a CPU device, whose work no desktop watches.
 double longestSubmission(const KernelChoice& choice, const DeviceLimits& limits) {
   constexpr double kOnGpus = 0.3;
   if (choice.longestSubmissionSeconds > 0) return choice.longestSubmissionSeconds;
   return limits.isCpu ? 0 : kOnGpus;
 }
 
-// The strands, with the shifts of their roots beside the head.
+// The constants of the strands, with their roots shifted relative to the head.
 std::vector<layout::StrandRest> shiftedStrands(const RestState& rest, std::span<const Vec3d> shifts) {
   if (shifts.empty()) return {};
   RINGLET_ASSERT(shifts.size() == rest.groomStrandCount, "every strand has a root shift");
@@ -44,7 +44,7 @@ std::vector<layout::StrandRest> shiftedStrands(const RestState& rest, std::span<
   return strands;
 }
 
-// What a head has from its beginning.
+// The features that a head uses from its first frame on.
 Features usedBy(const InitialState& initial) {
   return {.bodies = !initial.bodies.empty(), .roots = !initial.roots.empty()};
 }
@@ -142,8 +142,7 @@ InputSource Simulation::Implementation::inputSource() const {
   return asset->inputSource(*featurePlan, kNone, buffers.place);
 }
 
-// Moves all hair rigidly with the head, which was at `before`; but for what was cut off, which stays where it
-// is.
+// Moves all hair rigidly with the head, whose pose was `before`. Fallen hair stays where it is.
 Status Simulation::Implementation::carry(const HeadHistory& before) {
   const HeadHistory& now = head();
   const Quatd turned = normalized(now.now.rotation * before.now.rotation.conjugate());
@@ -169,7 +168,7 @@ Status Simulation::Implementation::carry(const HeadHistory& before) {
   return carryEach(&DeviceChunk::velocities, now.velocity(T) - before.velocity(T));
 }
 
-// Sets the rest pose, carried by the head and the roots and moving with them.
+// Sets the rest pose at the present poses of head and roots, at rest relative to them.
 Status Simulation::Implementation::placeAtRest() {
   const RootsInput& roots = inputs.get<RootsInput>();
   const auto nowAt = [&](std::size_t s) {
@@ -295,7 +294,7 @@ Status Simulation::Implementation::archive(Archive& archive) {
   return contacts.archive(archive);
 }
 
-// Of what a checkpoint of this hair is, now.
+// The hair, cuts and bodies that a checkpoint made now belongs to.
 CheckpointOwner Simulation::Implementation::checkpointOwner() const {
   std::vector<std::uint32_t> cuts;
   for (const FallenPiece& piece : fallen().pieces())
@@ -332,7 +331,7 @@ Result<SimulationReport> Simulation::report() const {
   if (!ofPieces) return ofPieces.error();
   SimulationReport total;
   std::uint64_t edges = 0, limited = 0;
-  // Of the particles [begin, end) of a strand.
+  // Adds the report of particles [begin, end) of strand s, whose record begins with particle `first`.
   const auto add = [&](const layout::StrandReport& r, std::size_t s, std::uint32_t begin, std::uint32_t end,
                        std::uint32_t first) {
     edges += end - begin - 1;

@@ -1,4 +1,4 @@
-// Implements cuts of solver/simulation.h (inputs/fallen_hair.h), and the constants of a head that has its
+// Implements cuts of solver/simulation.h (inputs/fallen_hair.h), and the constants that a head has of its
 // own.
 #include <algorithm>
 #include <utility>
@@ -26,7 +26,7 @@ Status Simulation::Implementation::cut(std::span<const StrandCut> cuts) {
   return renewConstants();
 }
 
-// The constants, of the present material and of what was cut.
+// Makes the constants anew, from the present material and the cuts.
 Status Simulation::Implementation::renewConstants() {
   std::vector<layout::StrandRest> own = constants.strands.empty() ? rest().strands : constants.strands;
   std::vector<std::string> sentences;

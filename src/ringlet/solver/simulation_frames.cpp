@@ -57,7 +57,7 @@ layout::StepParameters Simulation::Implementation::parametersOf(const StrandKern
   return p;
 }
 
-// One stage, or in several submissions one in each.
+// One stage; if it is cut into several submissions, one stage in each.
 void Simulation::Implementation::dispatchAll(FrameRecording& frame, const StrandKernels& of,
                                              std::span<const PlannedDispatch> dispatches) const {
   if (dispatches.empty()) return;  // all strands are rigid, or none was cut
@@ -69,8 +69,8 @@ void Simulation::Implementation::dispatchAll(FrameRecording& frame, const Strand
     if (cuts && d > 0) frame.list.endStage();
     if (cuts) frame.list.cut();
     if (cuts || d == 0) frame.list.beginStage(SubmissionPace::kStrandStage);
-    // Dispatches on other strands may overlap. The validation layer sees whole buffers, and would take them
-    // for hazards.
+    // Dispatches of different strands may overlap. The validation layer tracks whole buffers and would report
+    // these as hazards, so there they get a barrier.
     const bool isValidated = device().gpu().validationLog() != nullptr;
     const bool readsLast = d > 0 && sharesStrands(dispatches[d - 1], now);
     if (!cuts && (readsLast || (isValidated && (d > 0 || of.areFallen)))) frame.list.barrier();
@@ -83,9 +83,9 @@ void Simulation::Implementation::dispatchAll(FrameRecording& frame, const Strand
   frame.list.endStage();
 }
 
-// What a frame brings back to the host, also one without steps. Without timestamps a submission's time is
-// divided among its stages: stepping then keeps all of it. Each submission of divided hair brings its control
-// block back.
+// Copies results to the host; frames without steps do this too. The copy is a stage of its own only with
+// timestamps: without them a submission's time is divided among its stages, and all of it belongs to
+// stepping. With divided hair every submission copies the control block back (startPart).
 void Simulation::Implementation::recordEnd(FrameRecording& frame) const {
   const bool isTimed = frames.readBack() && device().gpu().properties().hasTimestamps;
   if (isTimed) frame.list.beginStage(kCopyStage);
@@ -180,7 +180,7 @@ Status Simulation::Implementation::record(FrameRecording& frame, const PlannedSt
       recordRows(frame, stage);
       break;
     case FrameStage::exchange:
-      break;  // it ends the submission
+      break;  // ends the submission (divided_frames.cpp)
     case FrameStage::end:
       recordEnd(frame);
       break;
@@ -209,13 +209,14 @@ std::vector<PlannedStage> Simulation::Implementation::planStages() const {
   return stagesOf(needs);
 }
 
-// The whole frame, once: what changes from frame to frame is in its inputs.
+// Records the whole frame. It can be submitted again, since what changes from frame to frame is in its
+// inputs.
 Status Simulation::Implementation::recordFrame(FrameRecording& frame) const {
   frame.pace.beginRecording();
   return record(frame, planStages());
 }
 
-// A frame of this slot's, to be submitted as often as wanted.
+// Records the frame of this slot.
 Status Simulation::Implementation::recordSlot(std::size_t slot) {
   FrameSlot& of = frames.slots[slot];
   if (Status status = of.recorder.begin(); !status) return status;
@@ -227,7 +228,7 @@ Status Simulation::Implementation::recordSlot(std::size_t slot) {
   return {};
 }
 
-// What is left of a frame that halted.
+// Records the rest of a frame that halted, from the contacts of the halted step on.
 Status Simulation::Implementation::recordRest(std::size_t slot) {
   FrameSlot& of = frames.slots[slot];
   of.recorded = FrameSlot::Recorded::nothing;
@@ -241,7 +242,7 @@ Status Simulation::Implementation::recordRest(std::size_t slot) {
   return {};
 }
 
-// What the host does before a frame. Whether the device has something to do: not where the head jumps.
+// The host's work before a frame. Returns whether the device has work: it has none where the head jumps.
 Result<bool> Simulation::Implementation::prepareFrame(std::span<const HeadPose> stepPoses,
                                                       std::span<const BodyPose> bodyPoses,
                                                       std::span<const BodyPose> rootPoses) {
@@ -275,7 +276,8 @@ Status Simulation::Implementation::submitFrame(std::span<const HeadPose> stepPos
   RINGLET_ASSERT(frames.submitted - frames.waited < kFramesInFlight,
                  "more frames in flight than there are places");
   if (Status status = prepare({.roots = !rootPoses.empty()}); !status) return status;
-  // A frame with contacts may not be over when the device stops.
+  // A frame with contacts may halt and need to be continued, so the next one cannot be submitted before it
+  // has ended.
   if (contacts.pairs || contacts.divided || isJump(stepPoses)) {
     if (Status status = finishFrames(); !status) return status;
   }
@@ -302,7 +304,7 @@ Status Simulation::Implementation::submitFrame(std::span<const HeadPose> stepPos
   return {};
 }
 
-// Until frame `end`, not itself, is over.
+// Finishes all frames before frame `end`.
 Status Simulation::Implementation::finishFrames(std::uint64_t end) {
   if (frames.lost) return *frames.lost;
   for (; frames.finished < end; ++frames.finished) {
@@ -324,8 +326,8 @@ void SpentTimes::add(const gpu::Recorder& recorder) {
   host.fence += recorder.fenceMilliseconds();
 }
 
-// A frame that stopped because a list was too long goes on from its step with longer ones: no pair is
-// dropped. Commands of a host's are done.
+// If a list was too short, the frame halted; it continues from that step with longer lists, so that no pair
+// is lost. A frame in a host's commands has been finished by the device when this is called.
 Status Simulation::Implementation::runToEnd(std::size_t slot) {
   gpu::Recorder& recorder = frames.slots[slot].recorder;
   for (bool isHosts = std::exchange(frames.slots[slot].isHosts, false);; isHosts = false) {
@@ -338,7 +340,7 @@ Status Simulation::Implementation::runToEnd(std::size_t slot) {
       return Error{kTooManyNear};
     }
     const bool isHalted = contacts.pairs && contacts.pairs->isHalted();
-    // A frame that stopped, or sleeps, says nothing of how long its work takes.
+    // The times of a frame that halted, or that has no steps, do not tell how long its work takes.
     const double work = frames.slots[slot].particleSteps;
     if (isHalted || (!isHosts && work > 0 && pace.learn(recorder.stageMilliseconds(), work))) {
       frames.forgetRecordings();
@@ -356,7 +358,7 @@ Status Simulation::Implementation::runToEnd(std::size_t slot) {
   }
 }
 
-// A frame that no kernel steps.
+// A frame in which the head jumps: no kernel steps it.
 Status Simulation::Implementation::jump(const FrameContext& frame) {
   const HeadHistory before = head();
   for (FrameInput* input : inputs.each()) input->jump(frame);

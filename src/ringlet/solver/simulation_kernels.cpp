@@ -1,5 +1,5 @@
-// Implements the strand kernels of solver/simulation.h: their choice, creation and bindings; and the features
-// that they know.
+// Implements the strand kernels of solver/simulation.h: their choice, creation and bindings, and adding
+// features to them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace ringlet {
 namespace {
 
-// Ranges of one shape are consecutive.
+// The shapes of the ranges; ranges of equal shape are consecutive.
 std::vector<StrandShape> shapesOf(std::span<const StrandRange> ranges) {
   std::vector<StrandShape> shapes;
   for (const StrandRange& range : ranges) {
@@ -34,8 +34,8 @@ std::uint32_t askedWidth(const gpu::DeviceProperties& device, const KernelChoice
   return device.canChooseSubgroupSize && width != device.subgroupSize ? width : 0;
 }
 
-// Notifies the observer, if there are one and a kernel to compile, of the beginning and, even on failure, of
-// the end.
+// Notifies the observer of the beginning and, even after a failure, of the end; only if there is an observer
+// and a kernel to compile.
 class CompileNotice {
  public:
   CompileNotice(CompileObserver* observer, std::size_t kernelCount)
@@ -83,7 +83,7 @@ StrandKernelOptions Simulation::Implementation::kernelOptions() const {
           .groupSize = featurePlan->groupSize};
 }
 
-// Of what was cut off: no root carries it, and it is pulled to no place and no part of the volume.
+// Options for fallen hair: it has no root pose and no goal, and is not part of the volume.
 StrandKernelOptions Simulation::Implementation::fallenOptions() const {
   StrandKernelOptions options = kernelOptions();
   options.falls = true;
@@ -91,7 +91,7 @@ StrandKernelOptions Simulation::Implementation::fallenOptions() const {
   return options;
 }
 
-// The shapes whose kernels no earlier simulation has made on this device.
+// Indices of the shapes whose kernels no earlier simulation has made on this device.
 std::vector<std::size_t> Simulation::Implementation::newKernels(const StrandKernels& of,
                                                                 const StrandKernelOptions& options) const {
   const std::vector<StrandShape> shapes = shapesOf(*of.ranges);
@@ -103,7 +103,7 @@ std::vector<std::size_t> Simulation::Implementation::newKernels(const StrandKern
   return found;
 }
 
-// Compiles several kernels at a time.
+// Makes the kernels, compiling several at a time.
 Status Simulation::Implementation::create(StrandKernels& of, const StrandKernelOptions& options) const {
   if (of.ranges->empty()) return {};
   const std::vector<StrandShape> shapes = shapesOf(*of.ranges);
@@ -128,7 +128,7 @@ Status Simulation::Implementation::makeKernels() {
   ofFirstSolve.bodies = false;
   const std::vector<std::size_t> newOnes = newKernels(kernels.strands, options);
   const std::vector<std::size_t> newFirst = newKernels(kernels.firstSolve, ofFirstSolve);
-  const bool isFirst = !kernels.strands.areThere();  // then those of contacts may be new too
+  const bool isFirst = !kernels.strands.areThere();  // then the kernels of contacts may be new too
   const std::size_t newCount = newOnes.size() + newFirst.size() +
                                (isFirst && contacts.pairs ? contacts.pairs->newKernelCount() : 0) +
                                (isFirst && contacts.volume ? contacts.volume->newKernelCount() : 0);
@@ -153,7 +153,7 @@ Status Simulation::Implementation::makeKernels() {
   return {};
 }
 
-// Adds features to those that this hair uses.
+// Adds features to those that this hair uses already.
 Status Simulation::Implementation::prepare(const Features& wanted) {
   const Features all = featurePlan->features | wanted;
   if (all == featurePlan->features) return {};
@@ -166,7 +166,7 @@ Status Simulation::Implementation::prepare(const Features& wanted) {
   return status;
 }
 
-// Makes what the plan of features needs and the one before had not.
+// Makes what the new plan of features needs and the old one did not.
 Status Simulation::Implementation::grow() {
   for (FrameInput* input : inputs.each()) {
     if (Status status = input->prepare(inputSource()); !status) return status;

@@ -13,7 +13,7 @@
 namespace ringlet {
 namespace {
 
-constexpr double kRounding = 1 + 1e-9;  // between two expressions for one step length
+constexpr double kRounding = 1 + 1e-9;  // tolerance for two ways to compute one step length
 
 }  // namespace
 

@@ -27,7 +27,7 @@ struct Compiled {
   std::span<const std::uint32_t> spirv;
 };
 
-// In the order of ContactKernel, with the distance taper.
+// In the order of ContactKernel, for the distance taper.
 const Compiled kCompiled[contactKernelCount(ContactTaper::distance)] = {
     {"contact_motion", k_contact_motion_plain}, {"contact_count", k_contact_count_plain},
     {"contact_scan", k_contact_scan_plain},     {"contact_scatter", k_contact_scatter_plain},

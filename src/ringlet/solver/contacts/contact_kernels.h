@@ -9,9 +9,9 @@
 
 namespace ringlet {
 
-/// In the order of a step: contact_motion.comp and so on. The first iteration of a step's solve is prepared
-/// by `touch`, with the time taper by `life`; those after it by `next`: contact_system.comp, with the time
-/// taper contact_gather.comp.
+/// In the order of a step; the kernels are contact_motion.comp and so on. The first solve with contacts of a
+/// step is prepared by `touch` (with the time taper also by `life`), later ones by `next`:
+/// contact_system.comp, with the time taper contact_gather.comp.
 enum class ContactKernel {
   motion,
   count,
@@ -22,8 +22,8 @@ enum class ContactKernel {
   query,
   touch,
   next,
-  judge,  // after sample, where strands are divided among devices
-  life,   // with the time taper, after touch
+  judge,  // after sample; only if strands are divided among devices
+  life,   // after touch, with the time taper
   check   // after life
 };
 /// Number of these kernels.
@@ -35,8 +35,8 @@ constexpr std::size_t contactKernelCount(ContactTaper taper) {
 /// Invocations per workgroup.
 inline constexpr std::uint32_t kContactGroupSize = 64;
 
-/// inGroups: some strands do not meet pair by pair, see VolumeStrands; texels: records are read as texels
-/// (gpu::BindingKind); forGpu: the form for GPUs; divided: other devices step some of the strands.
+/// inGroups: some strands meet as a volume and not pair by pair (VolumeStrands); texels: records are read as
+/// texels (gpu::BindingKind); forGpu: the form for GPUs; divided: other devices step some of the strands.
 gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper taper, bool inGroups,
                                              std::uint32_t groupSize, bool texels, bool forGpu,
                                              bool divided = false);

@@ -10,7 +10,8 @@
 namespace ringlet {
 namespace {
 
-// The initial room: blocks of one contact particle, and contact particles per block of the store.
+// The initial room: blocks for each contact particle's list, and contact particles for each block of the
+// store.
 constexpr std::uint32_t kFirstMostLifeBlocks = 4, kParticlesPerBlock = 4;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The sum of the momenta that contacts exchanged in the last step: 0 but for the error of the iteration.
+// The sum of the momenta that contacts exchanged in the last step: 0 except for the error of the iteration.
 #pragma once
 
 #include "ringlet/base/result.h"

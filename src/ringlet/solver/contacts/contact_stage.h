@@ -4,7 +4,7 @@
 //
 //   v^0 of all strands ->  lists: moved too far? then grid and query          (the device decides)
 //                      ->  first: who touches; weights, momenta               -> solve -> v^1
-//                      ->  next: unmet springs dropped, pair means of v^1      -> solve -> v^2 ... -> move
+//                      ->  next: holding springs dropped, pair means of v^1    -> solve -> v^2 ... -> move
 //
 // With the distance taper a contact follows from the positions of its two particles; with the time taper it
 // has a state of its own (contact_lives.h).
@@ -38,10 +38,10 @@ namespace ringlet {
 
 class ContactStage {
  public:
-  /// Fails, with the numbers and what to do, where lists are larger than the device's buffers. `groom` is of
-  /// one chunk, and must live as long, in one place. room: as KernelChoice::contactRoom.
-  /// Of divided hair `rest` and `contacts` are those of a part (rest/rest_part.h), which has no lists and no
-  /// contacts of its halo.
+  /// Fails, with the numbers and what to do, where lists are larger than the device's buffers. `groom` has
+  /// one chunk, must outlive this and must not move. room: as KernelChoice::contactRoom. For divided hair
+  /// `rest` and `contacts` are those of a part (rest/rest_part.h), which has no lists and no contacts of its
+  /// halo.
   static Result<ContactStage> create(gpu::Device& device, const RestState& rest, const Settings& settings,
                                      const RestContacts& contacts, DeviceGroom& groom, int room);
 
@@ -50,8 +50,8 @@ class ContactStage {
   /// Dispatches these without work, so that the driver compiles them before they are needed.
   void recordNothing(gpu::CommandList& list) const;
 
-  /// Records the stages of a step (plan/frame_plan.h). The caller records the barriers before and after each.
-  /// whose: the contact particles whose motion is measured (layout::kOfAll and its like).
+  /// Record the stages of a step (plan/frame_plan.h). The caller records the barriers before and after each.
+  /// whose: whose contact particles are measured (layout::kOfAll, kOfHere, kOfElsewhere).
   void recordMotion(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step,
                     std::uint32_t whose) const;
   void recordGrid(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
@@ -59,16 +59,16 @@ class ContactStage {
   void recordFirst(gpu::CommandList& list, SubmissionPace& pace) const;
   void recordNext(gpu::CommandList& list, SubmissionPace& pace) const;
 
-  /// Reads the control block that a frame left. To be called after a frame, before the functions below.
+  /// Reads the control block that a frame left. Call it after a frame, before the functions below.
   void readControl();
-  /// The step at which the frame stopped for want of room, if it did.
+  /// Whether the frame halted for lack of room, and at which step.
   bool isHalted() const { return control_.isHalted != 0; }
   std::uint32_t haltedStep() const { return control_.step; }
-  /// Of hair in several parts: the largest motion and speed, as ContactControl has them, after recordMotion.
+  /// For divided hair: the largest motion and speed, as ContactControl has them, after recordMotion.
   using Largest = std::array<std::int32_t, 2>;
   Largest largest() const;
   Status setLargest(const Largest& largest);
-  /// Of hair in several parts: the counts of the sample after recordGrid, to be summed over the parts before
+  /// For divided hair: the counts of the sample after recordGrid, to be summed over the parts before
   /// recordLists.
   struct Sample {
     std::uint32_t sampled = 0, missed = 0;  // see ContactControl
@@ -81,7 +81,7 @@ class ContactStage {
 
   /// Size of the constant buffers, and of the lists [bytes].
   std::uint64_t bytes() const;
-  /// What its kernels see.
+  /// The buffers that its kernels use.
   gpu::BufferTable bufferTable() const;
   std::uint64_t listBytes() const;
 
@@ -91,8 +91,8 @@ class ContactStage {
   /// Number of pairs in the lists, and of contacts; each counts for both particles.
   std::uint64_t listedSides() const { return control_.listed; }
   Result<std::uint64_t> contactSides() const;
-  /// Changes the live settings. Invalidates earlier recordings; another stiffness or damping ratio also the
-  /// lists.
+  /// Changes the live settings. Invalidates earlier recordings; a change of stiffness or damping ratio also
+  /// invalidates the lists.
   Status setSettings(const Settings& settings);
   /// Clears lists and contacts, after the hair was moved to another state.
   Status forget();
@@ -133,10 +133,10 @@ class ContactStage {
   std::vector<gpu::Bindings> bindings_;  // likewise
   DeviceGroom* groom_ = nullptr;
   std::optional<Buffers> buffers_;
-  std::vector<gpu::Buffer> lists_;     // of who is near, by ListPart
+  std::vector<gpu::Buffer> lists_;     // of neighbours, by ListPart
   std::optional<ContactLives> lives_;  // with the time taper
   std::uint64_t largestList_ = 0;      // limit of a buffer of the lists [bytes]
-  layout::ContactControl control_{};   // as the device has it between frames
+  layout::ContactControl control_{};   // as on the device between frames
   std::uint64_t pairTests_ = 0;
   ContactSettings settings_;
   std::vector<std::uint32_t> particles_;  // device index of each contact particle

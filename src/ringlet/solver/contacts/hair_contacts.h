@@ -1,4 +1,4 @@
-// HairContacts: how the strands of one head hear of each other on a device; nothing without contacts.
+// HairContacts: how the strands of one head act on each other on a device; empty without contacts.
 #pragma once
 
 #include <optional>
@@ -22,9 +22,9 @@ struct HairContacts {
   ContactKinds kinds() const { return {pairs.has_value(), volume.has_value()}; }
   /// Clears contacts and the volume's displacements, after the hair was moved to another state.
   Status forget();
-  /// As the stages'.
+  /// Archives the state of all stages.
   Status archive(Archive& archive);
-  /// atRest, with what the stages know now; without the momentum.
+  /// atRest, completed with the stages' present counts; without the momentum.
   Result<ContactReport> report() const;
 };
 

@@ -1,4 +1,5 @@
-// The contact particles of which a step asks whether lists may stay (contact_sample.comp), of divided hair.
+// The sample of contact particles that decides in each step whether lists are kept (contact_sample.comp), for
+// divided hair.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +10,15 @@
 
 namespace ringlet {
 
-/// For sampledContact (shaders/shared/contact_buffers.glsl).
+/// The argument of sampledContact (shaders/shared/contact_buffers.glsl).
 struct SampledContacts {
-  std::vector<std::uint32_t> list;  // where those of each remainder begin in it, the end, and then they
-  std::uint32_t most = 0;           // of one remainder
+  std::vector<std::uint32_t> list;  // for each remainder the index in `list` of its first contact particle;
+                                    // the end; then the contact particles
+  std::uint32_t most = 0;           // contact particles of one remainder
 };
 
-/// Contact particles of the first `hereCount` strands of a part, by what their index in the whole groom
-/// leaves modulo `stride`: all parts together sample those that undivided hair does. Cost: linear.
+/// Contact particles of the first `hereCount` strands of a part, by their index in the whole groom modulo
+/// `stride`, so that all parts together sample the same ones as undivided hair. Cost: linear.
 SampledContacts sampledContacts(const RestContacts& contacts, std::size_t hereCount, std::uint32_t stride);
 
 }  // namespace ringlet

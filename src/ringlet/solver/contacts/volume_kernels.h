@@ -8,8 +8,8 @@
 
 namespace ringlet {
 
-/// In the order of a step; from count to density only in steps that put particles into cells, bring only in
-/// iterations after the first, from gather to spread in each; mean only where strands are divided among
+/// In the order of a step. Count to density run only in steps that sort particles into cells; bring only in
+/// iterations after the first; gather to spread in every iteration; mean only if strands are divided among
 /// devices.
 enum class VolumeKernel { begin, box, count, scan, start, place, density, bring, gather, mean, spread };
 inline constexpr std::size_t kVolumeKernelCount = 11;

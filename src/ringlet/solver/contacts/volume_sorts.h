@@ -1,4 +1,4 @@
-// VolumeSorts: which steps put the volume's particles into the grid's cells.
+// VolumeSorts: the steps in which the volume's particles are sorted into the grid's cells.
 #pragma once
 
 #include <cstdint>
@@ -7,12 +7,12 @@
 
 namespace ringlet {
 
-/// The first step of a run does, and then one in volumeSortSteps, however the run is cut into frames.
+/// The first step of a simulation sorts, and then every volumeSortSteps-th, independently of frames.
 class VolumeSorts {
  public:
-  /// From the next step on whose turn it is.
+  /// Applies from the next step that sorts.
   void setStep(double stepSeconds) { every_ = volumeSortSteps(stepSeconds); }
-  /// Begins a frame of so many steps. Until the next, `sorts` is about this one.
+  /// Begins a frame of this many steps; `sorts` and `until` then refer to this frame.
   void beginFrame(std::uint32_t steps) {
     until_ = untilNext_;
     const std::uint32_t past = steps > until_ ? steps - until_ : 0;  // steps since the first that sorts
@@ -23,7 +23,7 @@ class VolumeSorts {
   }
   /// Steps of this frame before the first that sorts.
   std::uint32_t until() const { return until_; }
-  /// The next step is the first again.
+  /// Makes the next step count as the first.
   void forget() { until_ = untilNext_ = 0; }
 
   template <class Archive>

@@ -44,7 +44,7 @@ std::vector<layout::VolumeParticle> volumeParticles(const RestState& rest, const
   return particles;
 }
 
-// The state of hair that was just placed.
+// The state of hair that was just placed: only its densities are known.
 std::vector<layout::VolumeState> unknownStates(const std::vector<float>& densities) {
   std::vector<layout::VolumeState> states(densities.size());
   for (std::size_t i = 0; i < states.size(); ++i) states[i].density = densities[i];
@@ -57,7 +57,7 @@ layout::VolumeControl emptyControl() {
   return control;
 }
 
-// Numbers of each node in the buffer of sums, of gather and of density (shared/volume_buffers.glsl).
+// Numbers per node in the buffer of sums, from gather and from density (shared/volume_buffers.glsl).
 constexpr std::size_t kSumsOfNode = 8, kDensitiesOfNode = 2;
 
 std::uint32_t groupsOf(std::uint64_t particles) {
@@ -207,7 +207,7 @@ Status VolumeStage::setSettings(const Settings& settings) {
   numbers_.drag = static_cast<float>(settings.contacts.volumeDrag);
   numbers_.stiffness = static_cast<float>(settings.contacts.volumeStiffness);
   numbers_.kept = static_cast<float>(std::exp(-T / settings.contacts.volumeMemorySeconds));
-  // A term of the sums has kVolumeUnits at most. Without drag and stiffness there are none.
+  // A term of the sums is kVolumeUnits at most. Without drag and stiffness there are no terms.
   constexpr auto kUnits = static_cast<double>(layout::kVolumeUnits);
   const double gain = T * (settings.contacts.volumeDrag + T * settings.contacts.volumeStiffness);
   const double longest = std::min(settings.maxStretch, kVolumeMostStretch) * longestStrand_;

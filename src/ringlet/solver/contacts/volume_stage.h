@@ -30,9 +30,9 @@
 
 namespace ringlet {
 
-/// What the volume had room for, since the simulation began: how often a particle's a was cut, the largest
-/// component of a as a share of ContactSettings::volumeMostRate, and the largest cell as a multiple of
-/// that asked for.
+/// How well the volume's sums could hold its hair, since the simulation began: how often a particle's a was
+/// cut, the largest component of a as a share of ContactSettings::volumeMostRate, and the largest cell as a
+/// multiple of the size asked for.
 struct VolumeReach {
   std::uint32_t cut = 0;
   double largest = 0, coarsest = 0;
@@ -40,9 +40,9 @@ struct VolumeReach {
 
 class VolumeStage {
  public:
-  /// Fails, with the numbers and what to do, where the device lacks memory. `groom` is of one chunk; it and
-  /// the buffer of the head's poses (HeadInput) must live as long, in one place. divided: other devices step
-  /// other strands of the volume, which `volume` lacks. range: as KernelChoice::volumeRange.
+  /// Fails, with the numbers and what to do, where the device lacks memory. `groom` has one chunk; it and the
+  /// buffer of the head's poses (HeadInput) must outlive this and must not move. divided: other devices step
+  /// other strands of the volume, which `volume` does not contain. range: as KernelChoice::volumeRange.
   static Result<VolumeStage> create(gpu::Device& device, const RestState& rest, const Settings& settings,
                                     const RestVolume& volume, bool divided, DeviceGroom& groom,
                                     const gpu::Buffer& poses, double range);
@@ -52,36 +52,36 @@ class VolumeStage {
   /// Dispatches these without work, so that the driver compiles them before they are needed.
   void recordNothing(gpu::CommandList& list) const;
 
-  /// Before a frame of so many steps is recorded or submitted. `untilSort`: steps of it before the first that
-  /// sorts; recordings of frames that differ in it differ.
+  /// Call it before a frame of this many steps is recorded or submitted. `untilSort`: steps of the frame
+  /// before the first that sorts; a recording is valid only for frames with the same number.
   void beginFrame(std::uint32_t steps) { sorts_.beginFrame(steps); }
   std::uint32_t untilSort() const { return sorts_.until(); }
 
-  /// Records the stages of a step (plan/frame_plan.h). The caller records the barriers before and after each.
-  /// The kernels do nothing if contacts of pairs have halted. Contributions of the particles in an iteration,
-  /// the first of a step or a later one.
+  /// Record the stages of a step (plan/frame_plan.h). The caller records the barriers before and after each.
+  /// The kernels do nothing if contacts of pairs have halted. recordBrought: contributions of the particles
+  /// in an iteration; isFirst: the first iteration of a step.
   void recordBrought(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step, bool isFirst) const;
-  /// In a step that sorts, once. In each iteration, the sums of contributions at the grid's nodes, and what
-  /// the means give the particles.
+  /// recordSort: once in a step that sorts. In each iteration recordSums sums contributions at the grid's
+  /// nodes, and recordMeans gives the particles the means.
   bool sorts(std::uint32_t step) const { return sorts_.sorts(step); }
   void recordSort(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
   void recordSums(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
   void recordMeans(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
 
-  /// If strands are divided: records the control's way to the host, at the end of every submission, and that
-  /// of the reach back, before recordSort.
+  /// For divided hair: recordControl copies the control block to the host, at the end of every submission;
+  /// recordReach copies the reach back, before recordSort.
   void recordControl(gpu::CommandList& list) const;
   void recordReach(gpu::CommandList& list) const;
-  /// Between submissions. After recordBrought of a step's first iteration: the cells that particles here are
-  /// in, {-least, greatest}, to be replaced by the largest of all devices before recordReach.
+  /// Between submissions, after recordBrought of a step's first iteration: the range of cells of the
+  /// particles here as {-least, greatest}; set it to the largest values of all parts before recordReach.
   std::array<std::int32_t, 6> reach() const;
   void setReach(const std::array<std::int32_t, 6>& reach);
-  /// After recordSums: the sums, to be replaced by those over all devices before recordMeans; after
-  /// recordSort those of densities too.
+  /// After recordSums: the sums, to be replaced by their totals over all parts before recordMeans; after
+  /// recordSort the densities likewise.
   std::span<std::uint32_t> sums();
   std::span<std::uint32_t> densities();
 
-  /// These particles of the groom, by device index, ascending, are of the volume no more: they have fallen.
+  /// Removes fallen particles from the volume; device indices, ascending.
   Status release(std::span<const std::uint32_t> particles);
   /// Changes the live settings, while no kernel runs. Invalidates earlier recordings.
   Status setSettings(const Settings& settings);
@@ -91,11 +91,11 @@ class VolumeStage {
   /// last solve.
   Status archive(Archive& archive);
 
-  /// Whether the sums had room for what particles contributed, since the simulation began.
+  /// Whether the sums could hold what particles contributed, since the simulation began.
   Result<VolumeReach> reached() const;
 
   std::uint64_t bytes() const;
-  /// What its kernels see.
+  /// The buffers that its kernels use.
   gpu::BufferTable bufferTable() const;
 
  private:

@@ -8,7 +8,7 @@
 
 namespace ringlet {
 
-// Records a submission and hands it to the device.
+// Records a submission and submits it.
 Status Simulation::Implementation::startPart(FrameRecording& frame, gpu::Recorder& recorder,
                                              std::span<const PlannedStage> stages) {
   if (Status status = recorder.begin(); !status) return status;
@@ -20,7 +20,7 @@ Status Simulation::Implementation::startPart(FrameRecording& frame, gpu::Recorde
   return recorder.submit();
 }
 
-// Waits for it.
+// Waits for the submission and reads its control block.
 Status Simulation::Implementation::endPart(gpu::Recorder& recorder) {
   if (Status status = recorder.wait(); !status) return status;
   times.add(recorder);
@@ -28,7 +28,7 @@ Status Simulation::Implementation::endPart(gpu::Recorder& recorder) {
   return buffers.control().isHalted == layout::kHaltedByTurns ? Status{Error{kTooManyNear}} : Status{};
 }
 
-// At the start of a step.
+// At the start of a step: the largest motion of contact particles and the volume's reach over all parts.
 Status Simulation::Implementation::exchangeStarts(PartStep& now) {
   ContactStage::Largest motion{};
   std::array<std::int32_t, 6> reach{};
@@ -45,7 +45,7 @@ Status Simulation::Implementation::exchangeStarts(PartStep& now) {
   return contacts.pairs ? contacts.pairs->setLargest(motion) : Status{};
 }
 
-// A part that repeats a step knows the sample of all parts.
+// A part that repeats a step keeps the sample that was summed over all parts before.
 Status Simulation::Implementation::exchangeSample(PartStep& now) {
   if (!now.sample) {
     std::array<std::uint32_t, 2> sums{contacts.pairs->sample().sampled, contacts.pairs->sample().missed};
@@ -63,7 +63,7 @@ Status Simulation::Implementation::exchangeSums(const PlannedStage& stage) {
              : Status{};
 }
 
-// Rows are exchanged while the submission after theirs runs.
+// Rows are not exchanged here but while the submission after theirs runs (runParts).
 Status Simulation::Implementation::exchange(const PlannedStage& stage, PartStep& now) {
   switch (stage.exchange) {
     case Exchange::rows:
@@ -78,8 +78,7 @@ Status Simulation::Implementation::exchange(const PlannedStage& stage, PartStep&
   return {};
 }
 
-// If this part's lists find no room, the part repeats the step up to there; it has all data of the other
-// parts by then.
+// If this part's lists are too short, it repeats the step alone: by then it has all data of the other parts.
 Status Simulation::Implementation::runParts(std::size_t slot) {
   gpu::Recorder& recorder = frames.slots[slot].recorder;
   frames.slots[slot].recorded = FrameSlot::Recorded::nothing;
@@ -87,7 +86,7 @@ Status Simulation::Implementation::runParts(std::size_t slot) {
   const std::vector<PlannedStage> stages = planStages();
   const std::span<const PlannedStage> plan = stages;
   PartStep now;
-  const PlannedStage* underWay = nullptr;  // whose rows are exchanged beside the next submission
+  const PlannedStage* underWay = nullptr;  // its rows are exchanged while the next submission runs
   for (std::size_t begin = 0, end = 0; begin < plan.size(); begin = end + 1) {
     end = static_cast<std::size_t>(
         std::ranges::find(plan.subspan(begin), FrameStage::exchange, &PlannedStage::stage) - plan.begin());

@@ -1,14 +1,14 @@
 // DividedHair: the communication of hair with contacts whose strands are divided among several devices, over
-// a PartLink. Each part steps its own strands, and knows those of other parts that they may touch
-// (rest/rest_halo.h): it has their contact particles in its search grid, but no lists and no contacts of
-// them. With each part of its halo it exchanges the rows of contact particles twice a step:
+// a PartLink. Each part steps its own strands and has a copy of those strands of other parts that they may
+// touch, its halo (rest/rest_halo.h): the halo's contact particles are in its search grid, but have no lists
+// and no contacts there. A part exchanges rows of contact particles with each part of its halo twice a step:
 //
 //   v^0 -> rows of the step -> lists, contacts -> solve -> v^1 -> rows of the solve -> contacts -> solve ->
 //   move
 //
-// Those of its border are on their way while a part steps its other strands (divided_frames.cpp).
+// While the rows of its border are exchanged, a part steps its other strands (divided_frames.cpp).
 //
-// Of hair as a volume the parts add up the sums at the grid's nodes (volume_stage.h) in each iteration.
+// For hair as a volume the parts add up the sums at the grid's nodes (volume_stage.h) in each iteration.
 #pragma once
 
 #include <cstddef>
@@ -32,14 +32,14 @@ namespace ringlet {
 
 class DividedHair {
  public:
-  /// The link and the hair's buffers must live as long. Errors: a device that lacks memory.
+  /// The link and the hair's buffers must outlive this. Fails when the device lacks memory.
   static Result<DividedHair> create(gpu::Device& device, const RestContacts& contacts, const RestHalo& halo,
                                     PartLink& link, const DeviceChunk& hair);
 
-  /// Records the packing of the own rows, after a barrier, and the unpacking of the others', before one.
+  /// recordOut packs this part's rows, after a barrier; recordIn unpacks the others' rows, before a barrier.
   void recordOut(gpu::CommandList& list, Rows rows) const;
   void recordIn(gpu::CommandList& list, Rows rows) const;
-  /// Exchanges rows on the host, between the two.
+  /// Exchanges rows on the host, between recordOut and recordIn.
   Status exchange(Rows rows);
   PartLink& link() { return *link_; }
   /// Tells the other parts that this one has failed.

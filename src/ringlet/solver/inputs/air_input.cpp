@@ -29,7 +29,7 @@ Result<AirInput> AirInput::create(const InputSource& from) {
   return self;
 }
 
-// A step uses the air at its end, about the place of the head at its start, to which positions are relative.
+// A step uses the air at its end. Its positions are relative to the place of the head at the step's start.
 void AirInput::writeFrame(std::size_t slot, const FrameContext& frame) {
   if (!settings_.on) return;
   const auto out = staged_[0].of<layout::StepAir>(slot);

@@ -1,4 +1,4 @@
-// AirInput: the air that all hair is in, with its wind and turbulence.
+// AirInput: the air around the hair, with its wind and turbulence.
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@ class AirInput : public FrameInput {
 
   void writeFrame(std::size_t slot, const FrameContext& frame) override;
   bool isQuiet(const FrameContext&) const override;
-  /// The turbulence stays.
+  /// The turbulence does not change.
   void setSettings(const Settings&, const Settings& wanted) override { settings_ = wanted.air; }
   gpu::BufferTable bufferTable(std::size_t chunk) const override;
   std::uint64_t bytes() const override { return FrameInput::bytes() + waveBuffer_.bytes(); }

@@ -57,7 +57,7 @@ void BodiesInput::writeFrame(std::size_t slot, const FrameContext& frame) {
       const BodyPose next = poses.empty() ? bodies_[b].poseAt(0, heads[k]) : poses[(k - 1) * count + b];
       const Vec3d from = now_[b].position - heads[k - 1].position, to = next.position - heads[k].position;
       const Quatd turn = next.rotation * now_[b].rotation.conjugate();
-      // The motion of its origin, and of the point farthest from that by the turn.
+      // The motion of the body's origin, and that which the turn adds for the point farthest from the origin.
       const layout::vec4& bounds = packed_[b].bounds;
       const double arm = length(Vec3d{bounds.x, bounds.y, bounds.z}) + bounds.w;
       const double moves = length(to - from) + 2 * arm * length(Vec3d{turn.x, turn.y, turn.z});

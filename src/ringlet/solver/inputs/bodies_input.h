@@ -14,9 +14,9 @@ namespace ringlet {
 
 class BodiesInput : public FrameInput {
  public:
-  /// Of InitialState. Fails where checkBody does, and when the device lacks memory.
+  /// The bodies of InitialState. Fails where checkBody does, and when the device lacks memory.
   static Result<BodiesInput> create(const InputSource& from);
-  /// Other bodies, of a head at `head`, with poses in the world, or without: where the head carries them.
+  /// Other bodies, for a head at `head`. places: their poses in the world; empty: the head carries them.
   static Result<BodiesInput> create(const InputSource& from, std::span<const Body> bodies,
                                     std::span<const BodyPose> places, const HeadPose& head);
 

@@ -18,8 +18,9 @@ namespace {
 
 Vec3d vectorOf(const layout::vec3& v) { return {v.x, v.y, v.z}; }
 
-// The rest state of a piece, which begins with its first edge: its frames and smoothed curves begin there,
-// turned as the head was when it was cut, and shape and springs stay. `points`, `particles`: of the strand.
+// Sets the rest state of a piece, which begins with its first edge: its frames and smoothed curves begin
+// there, turned as the head was when it was cut; shape and springs stay. `points`, `particles`: of the whole
+// strand.
 void beginWith(const FallenPiece& piece, std::span<const Vec3f> points, layout::StrandRest& strand,
                std::span<layout::ParticleRest> particles) {
   std::vector<Vec3d> whole, rest;
@@ -39,7 +40,7 @@ void beginWith(const FallenPiece& piece, std::span<const Vec3f> points, layout::
   strand.firstEdge = packed3(rest[0]);
 }
 
-// Of the particles [begin, end) of a strand.
+// The rest length of the core along particles [begin, end) of a strand.
 float restCoreLength(std::span<const layout::ParticleRest> particles, std::uint32_t begin,
                      std::uint32_t end) {
   double length = 0;
@@ -73,7 +74,8 @@ Status FallenHair::cut(gpu::Device& device, std::span<const StrandCut> cuts, Qua
   if (Status status = keepReports(); !status) return status;
   if (kept_.empty())
     for (const layout::StrandRest& strand : rest_->strands) kept_.push_back(strand.particleCount);
-  std::vector<std::uint32_t> onDevice(rest_->groomStrandCount, ~0u);  // rigid strands are not there
+  std::vector<std::uint32_t> onDevice(rest_->groomStrandCount, ~0u);  // ~0: a rigid strand, which is not on
+                                                                      // the device
   for (std::uint32_t s = 0; s < rest_->strands.size(); ++s) onDevice[rest_->strandInGroom[s]] = s;
   for (const StrandCut& cut : cuts) {
     const std::uint32_t s = onDevice[cut.strand];
@@ -91,7 +93,7 @@ Status FallenHair::reshape(gpu::Device& device, std::span<const StrandRange> ran
   return makeRecords(device, ranges);
 }
 
-// While their records are made anew.
+// Saves the pieces' reports while the device's records are made anew.
 Status FallenHair::keepReports() {
   const auto now = reports();
   if (!now) return now.error();
@@ -99,7 +101,7 @@ Status FallenHair::keepReports() {
   return {};
 }
 
-// Buffers and ranges. A piece has the shape of the strand that it was.
+// Makes buffers and ranges. A piece has the kernel shape of the strand that it was cut off.
 Status FallenHair::makeRecords(gpu::Device& device, std::span<const StrandRange> ranges) {
   records_.clear();
   ranges_.clear();

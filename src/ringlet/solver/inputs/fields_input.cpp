@@ -14,7 +14,7 @@ namespace {
 
 float inverseOr0(double x) { return x > 0 ? static_cast<float>(1 / x) : 0; }
 
-// The field in a step that begins with the head at `head`, which moves at this velocity [m/s].
+// The field in a step that begins with the head at `head`, which moves at velocity `travel` [m/s].
 layout::StepField packedField(const ForceField& field, std::uint32_t firstNode, const HeadPose& head,
                               Vec3d travel) {
   layout::StepField out{};

@@ -1,4 +1,4 @@
-// FieldsInput: the force fields that hair is in; none for hair without the feature.
+// FieldsInput: the force fields that act on the hair; none for hair without the feature.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ class FieldsInput : public FrameInput {
  public:
   /// Without fields.
   static Result<FieldsInput> create(const InputSource& from) { return create(from, {}); }
-  /// With room for these. Fails where checkForceField does, and when the device lacks memory.
+  /// Allocates room for these fields. Fails where checkForceField does, and when the device lacks memory.
   static Result<FieldsInput> create(const InputSource& from, std::span<const ForceField> fields);
 
   /// The fields as they are now.

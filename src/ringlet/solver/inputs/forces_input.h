@@ -33,7 +33,7 @@ class ForcesInput : public FrameInput {
   std::span<const GroomChunk> chunks_;       // staged, of each: vec4[particle]
   std::vector<std::uint32_t> groomIndices_;  // of each particle, in device order
   std::vector<layout::vec4> now_;            // in device order
-  std::vector<bool> isWritten_;              // of each slot: it has these forces
+  std::vector<bool> isWritten_;              // by slot: the slot has the present forces
 };
 
 }  // namespace ringlet

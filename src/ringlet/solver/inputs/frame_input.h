@@ -1,5 +1,5 @@
-// FrameInput: something outside that acts on one head's hair, as the host says it frame by frame.
-// frame_inputs.h lists them all; to add one, write a class and add a line there.
+// FrameInput: one kind of outside influence on a head's hair, which the host sets frame by frame.
+// frame_inputs.h lists them all; to add one, write a class and add it to the list there.
 #pragma once
 
 #include <cstddef>
@@ -37,44 +37,45 @@ class FrameInput {
  public:
   virtual ~FrameInput() = default;
 
-  /// Makes what features of the hair need and it lacked; its state stays. Bindings are then to be made anew.
+  /// Makes what the hair's features need and this lacks; its state stays. Bindings must then be made anew.
   /// Fails when the device lacks memory.
   virtual Status prepare(const InputSource&) { return {}; }
-  /// Writes the frame of a slot: what kernels are to read.
+  /// Writes what kernels read in the frame of this slot.
   virtual void writeFrame(std::size_t slot, const FrameContext& frame) = 0;
-  /// In place of writeFrame: a frame that is not stepped, since the head jumps.
+  /// In place of writeFrame for a frame in which the head jumps, which is not stepped.
   virtual void jump(const FrameContext&) {}
-  /// Whether nothing here changes in this frame.
+  /// Whether this input does not change in this frame.
   virtual bool isQuiet(const FrameContext&) const { return true; }
-  /// From these settings to others, between frames.
+  /// Changes from the first settings to the second, between frames.
   virtual void setSettings(const Settings&, const Settings&) {}
-  /// Adapts to steps that are this share as long: velocities stay.
+  /// Adapts to a step length multiplied by this share; velocities stay.
   virtual void rescale(double) {}
-  /// The state that later frames depend on and the host does not set anew. Fails where the device does.
+  /// Archives the state that later frames depend on and that the host does not set anew. Fails where the
+  /// device does.
   virtual Status archive(Archive&) { return {}; }
 
-  /// Bindings of the strand kernels, of a chunk.
+  /// Bindings of the strand kernels for a chunk.
   virtual gpu::BufferTable bufferTable(std::size_t chunk) const = 0;
-  /// The largest buffer that kernels read as texels, and the size of all on the device [bytes].
+  /// Size of the largest buffer that kernels read as texels, and of all buffers on the device [bytes].
   virtual std::uint64_t largestBuffer() const;
   virtual std::uint64_t bytes() const;
   void addTo(DeviceMemory& memory) const;
 
-  /// Records the copies to the device with which a frame of this slot begins.
+  /// Records the copies to the device at the start of a frame of this slot.
   void record(gpu::CommandList& list, std::size_t slot) const {
     for (const StagedBuffer& staged : staged_) staged.record(list, slot);
   }
 
  protected:
-  /// Among what `bytes` are counted.
+  /// The member of DeviceMemory that `bytes` are added to.
   virtual std::uint64_t DeviceMemory::*kind() const;
 
   FrameInput() = default;
   FrameInput(FrameInput&&) = default;
   FrameInput& operator=(FrameInput&&) = default;
-  /// One more buffer that is written for every frame; `bytes` may be 0. Fails when the device lacks memory.
+  /// Adds a buffer that is written for every frame; `bytes` may be 0. Fails when the device lacks memory.
   Status stage(const InputSource& from, std::uint64_t bytes, const char* name);
-  std::uint64_t writtenBytes() const;  // by the host, for all frames in flight
+  std::uint64_t writtenBytes() const;  // host memory for all frames in flight
 
   std::vector<StagedBuffer> staged_;  // in the order they were added
 };

@@ -1,4 +1,4 @@
-// FrameInputs: all that acts on one head's hair from outside.
+// FrameInputs: everything that acts on one head's hair from outside.
 #pragma once
 
 #include <array>
@@ -32,17 +32,17 @@ namespace ringlet {
 
 struct InitialState;
 
-/// What inputs are made from; all must live as long as they do but for `initial`.
+/// What inputs are made from. All of it must outlive them, except `initial`.
 struct InputSource {
   gpu::Device& device;
   const RestState& rest;
-  const Settings& settings;  // the asset's: no frame has more steps
+  const Settings& settings;  // the asset's: no frame has more steps than these say
   Features features{};       // that the hair uses
   std::span<const GroomChunk> chunks;
   const GroomGoal* goal = nullptr;        // of the groom; null: none
   std::span<const GoalUnit> goalUnits{};  // with goals, of each particle, device order
   const InitialState& initial;
-  const std::optional<HeadPlace>& place;  // among other heads
+  const std::optional<HeadPlace>& place;  // if the head shares buffers with others
   std::size_t slots = 0;                  // frames in flight
 };
 

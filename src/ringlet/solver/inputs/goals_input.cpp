@@ -73,7 +73,7 @@ void GoalsInput::writeFrame(std::size_t slot, const FrameContext&) {
   }
   isWritten_[slot] = !move_;
   if (!std::exchange(move_, false)) return;
-  for (std::size_t i = 0; i < end_.size(); ++i)  // the damping stays
+  for (std::size_t i = 0; i < end_.size(); ++i)  // w, the damping, stays
     start_[i] = {end_[i].x, end_[i].y, end_[i].z, start_[i].w};
 }
 

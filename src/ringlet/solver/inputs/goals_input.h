@@ -18,7 +18,7 @@ struct GroomGoal;
 
 class GoalsInput : public FrameInput {
  public:
-  /// The groom's own goal where Settings::goal is on; else all strengths are 0 at first. Fails when the
+  /// Starts with the groom's own goal if Settings::goal is on; otherwise all strengths are 0. Fails when the
   /// device lacks memory.
   static Result<GoalsInput> create(const InputSource& from);
 
@@ -44,8 +44,8 @@ class GoalsInput : public FrameInput {
   const GroomGoal* own_ = nullptr;           // of the groom; null: none
   std::span<const GoalUnit> units_;          // of each particle, in device order; empty: no goals
   std::vector<layout::vec4> start_, end_;    // of the next frame, in device order
-  bool move_ = false;                        // goals move in the next frame
-  std::vector<bool> isWritten_;              // of each slot: it has these goals
+  bool move_ = false;                        // whether goals move in the next frame
+  std::vector<bool> isWritten_;              // by slot: the slot has the present goals
 };
 
 }  // namespace ringlet

@@ -19,7 +19,7 @@ void HeadHistory::jump(const HeadPose& to) {
   oneStepEarlier = {to.position - step, normalized(turn.conjugate() * to.rotation), to.shift};
 }
 
-// A head that has a place among others writes into its part of their poses.
+// A head that shares buffers with others writes its poses into its part of them.
 Result<HeadInput> HeadInput::create(const InputSource& from) {
   HeadInput self;
   self.history_ = {from.initial.oneStepEarlier.value_or(from.initial.head), from.initial.head};

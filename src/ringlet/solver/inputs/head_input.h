@@ -10,12 +10,12 @@ namespace ringlet {
 struct HeadHistory {
   HeadPose oneStepEarlier, now;
 
-  /// Adapts to steps that are this share as long: the velocity stays.
+  /// Adapts to a step length multiplied by this share; the velocity stays.
   void rescale(double share) { oneStepEarlier = interpolate(now, oneStepEarlier, share); }
 
   Vec3d velocity(double T) const { return (now.position - oneStepEarlier.position) / T; }
   Quatd turn() const { return now.rotation * oneStepEarlier.rotation.conjugate(); }
-  /// Moves to another pose; the velocity relative to the head stays.
+  /// Moves to another pose; the velocity in the head's own axes stays.
   void jump(const HeadPose& to);
 };
 

@@ -1,6 +1,6 @@
-// HeadPlaces: where heads of one asset stand on the device. The buffers of a head are parts of larger ones, a
-// row, in which heads stand one behind the other, so that one dispatch can step many of them (RINGLET_HEADS
-// of shared/strand_buffers.glsl).
+// HeadPlaces: shared buffers for heads of one asset. A head's buffers are parts of larger ones, a row, in
+// which heads follow one another, so that one dispatch can step many of them (RINGLET_HEADS of
+// shared/strand_buffers.glsl).
 //
 //   row   | head 0 | head 1 | free | head 3 | ...
 #pragma once
@@ -19,15 +19,15 @@
 
 namespace ringlet {
 
-/// Of one or more heads, one behind the other.
+/// The buffers of one head or of several consecutive ones.
 struct HeadBuffers {
   gpu::Buffer positions, velocities, reports, poses;
 
-  /// As strand kernels bind them.
+  /// Bindings of strand kernels.
   gpu::BufferTable bufferTable() const;
 };
 
-/// Records from one head to the next.
+/// Number of records from the start of one head to that of the next.
 struct HeadStrides {
   std::uint32_t particles = 0, strands = 0, stepPoses = 0;
 };
@@ -42,7 +42,7 @@ struct HeadRow {
   std::uint64_t largestBuffer() const { return std::max(buffers.positions.bytes(), buffers.poses.bytes()); }
 };
 
-/// One head's place in a row, which it keeps; free again with its end.
+/// The place of one head in a row. Its destructor frees the place.
 class HeadPlace {
  public:
   HeadPlace(HeadPlace&&) = default;
@@ -50,7 +50,7 @@ class HeadPlace {
 
   const HeadRow& row() const { return *row_; }
   std::uint32_t number() const { return number_; }
-  /// Its part of the row's buffers, and those of the heads behind it: `heads` in all. Fails when the device
+  /// The part of the row's buffers that begins with this head and holds `heads` heads. Fails when the device
   /// lacks memory.
   Result<HeadBuffers> part(std::uint32_t heads) const;
 
@@ -64,17 +64,17 @@ class HeadPlace {
   std::shared_ptr<void> taken_;  // frees the place
 };
 
-/// For any thread.
+/// Thread-safe.
 class HeadPlaces {
  public:
-  /// For about `heads` heads whose hair is one chunk. None where a head is so large that a dispatch of its
-  /// own serves it as well, or the device sees no two heads' poses as texels. Fails when the device lacks
-  /// memory.
+  /// Plans for about `heads` heads whose hair is one chunk. Returns null where a head is so large that a
+  /// dispatch of its own is as fast, or where the device cannot read two heads' poses as texels. Fails when
+  /// the device lacks memory.
   static Result<std::shared_ptr<HeadPlaces>> create(gpu::Device& device, const GroomChunk& part,
                                                     const GroomRecords& records, int heads);
 
   std::uint32_t headsOfRow() const { return heads_; }
-  /// The first free place; where there is none, in a new row. Fails when the device lacks memory.
+  /// Takes the first free place; adds a row if there is none. Fails when the device lacks memory.
   Result<HeadPlace> take();
 
  private:
@@ -93,7 +93,7 @@ class HeadPlaces {
   HeadStrides strides_;
   std::uint32_t heads_ = 0;  // of a row
   std::shared_ptr<std::mutex> guard_ =
-      std::make_shared<std::mutex>();  // of what follows and whose places are taken
+      std::make_shared<std::mutex>();  // protects the rows and which of their places are taken
   std::vector<std::shared_ptr<HeadRow>> rows_;
 };
 

@@ -14,7 +14,7 @@ class NumbersInput : public FrameInput {
     return made ? Result<NumbersInput>(std::move(self)) : made.error();
   }
 
-  /// Those of the next frame that is written.
+  /// Sets the numbers for the next frame that is written.
   void set(const layout::HairNumbers& numbers) { now_ = numbers; }
 
   void writeFrame(std::size_t slot, const FrameContext&) override {
@@ -23,7 +23,7 @@ class NumbersInput : public FrameInput {
   gpu::BufferTable bufferTable(std::size_t) const override {
     return {{layout::kBindNumbers, staged_[0].seen()}};
   }
-  std::uint64_t largestBuffer() const override { return 0; }  // no texels
+  std::uint64_t largestBuffer() const override { return 0; }  // never read as texels
 
  private:
   layout::HairNumbers now_{};

@@ -1,4 +1,5 @@
-// RigidHair: the strands that their roots carry rigidly; they are not on the device (rest/rigid_strands.h).
+// RigidHair: strands that are carried rigidly by their roots and are not on the device
+// (rest/rigid_strands.h).
 #pragma once
 
 #include <span>
@@ -14,17 +15,17 @@ namespace ringlet {
 
 class RigidHair : public FrameInput {
  public:
-  /// With the root poses and shifts of InitialState.
+  /// Starts with the root poses and shifts of InitialState.
   static Result<RigidHair> create(const InputSource& from);
 
   std::size_t strandCount() const { return strands_.size(); }
 
-  /// Moves by the poses of a frame's steps; without any, strands stay.
+  /// Moves strands by the root poses of a frame's steps; without poses, strands stay on the head.
   void writeFrame(std::size_t slot, const FrameContext& frame) override;
   /// Afterwards roots are at rest relative to the head.
   void jump(const FrameContext& frame) override;
   void rescale(double share) override;
-  /// The root poses now and one step earlier.
+  /// Archives the root poses now and one step earlier.
   Status archive(Archive& archive) override {
     archive.values(std::span(poses_));
     return {};
@@ -36,7 +37,7 @@ class RigidHair : public FrameInput {
   /// Velocities relative to the head's translation [m/s].
   std::vector<Vec3f> velocities(const HeadPose& now, const HeadPose& oneStepEarlier,
                                 double stepSeconds) const;
-  /// Copies such values to the places of these strands among all particles, in groom order.
+  /// Copies values of these strands to their places among all particles, in groom order.
   void scatter(std::span<const Vec3f> values, std::span<Vec3f> inGroomOrder) const;
 
  private:
@@ -49,7 +50,7 @@ class RigidHair : public FrameInput {
 
   std::vector<RigidStrand> strands_;
   std::size_t groomStrandCount_;
-  std::vector<Poses> poses_;  // of each
+  std::vector<Poses> poses_;  // by strand
 };
 
 }  // namespace ringlet

@@ -63,7 +63,7 @@ void RootsInput::writeFrame(std::size_t slot, const FrameContext& frame) {
   RINGLET_ASSERT(poses.empty() || poses.size() == frame.steps() * groomStrandCount_,
                  "every strand has a pose in every step");
   if (count == 0) return;
-  std::vector<BodyPose> before(count);  // the pose that carried the strand one pose earlier
+  std::vector<BodyPose> before(count);  // the pose that carried each strand one pose earlier
   for (std::size_t s = 0; s < count; ++s) before[s] = carriedBy(heads[0].rotation, oneStepEarlier_[s]);
   for (std::size_t pose = 0; pose + 1 < heads.size(); ++pose) {
     if (pose > 0) {
@@ -92,7 +92,7 @@ bool RootsInput::isQuiet(const FrameContext& frame) const {
   return true;
 }
 
-// Roots are at their last poses, at rest relative to the head.
+// Sets roots to their last poses, at rest relative to the head.
 void RootsInput::jump(const FrameContext& frame) {
   if (!frame.rootPoses.empty()) now_ = inOrder(frame.rootPoses.last(groomStrandCount_));
   oneStepEarlier_ = now_;

@@ -13,13 +13,13 @@
 
 namespace ringlet {
 
-/// The pose that carries a strand whose root has this pose in the head's frame: relative to the head's
-/// origin, along world axes.
+/// The transform of a strand whose root has pose `root` in the head's frame: relative to the head's origin,
+/// along world axes.
 BodyPose carriedBy(Quatd headRotation, const BodyPose& root);
 
 class RootsInput : public FrameInput {
  public:
-  /// Those of InitialState, or BodyPose{}. Fails when the device lacks memory.
+  /// Starts with the poses of InitialState, or BodyPose{}. Fails when the device lacks memory.
   static Result<RootsInput> create(const InputSource& from);
 
   bool areMoving() const { return areMoving_; }
