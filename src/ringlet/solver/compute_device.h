@@ -50,7 +50,7 @@ struct HostVulkan {
   std::uint32_t apiVersion = 0;         // of the host's VkApplicationInfo, 1.1 at least
   bool subgroupSizeControl = false;     // features that the device was opened with
   bool computeFullSubgroups = false;
-  bool atomicInt64 = false;  // shaderInt64 and shaderBufferInt64Atomics; pictures are faster with them
+  bool atomicInt64 = false;  // shaderInt64 and shaderBufferInt64Atomics, which make pictures faster
   // Ringlet locks it while it submits to the queue. Without it the host must not submit during calls of
   // Ringlet.
   std::mutex* queueMutex = nullptr;
@@ -62,8 +62,8 @@ struct HostVulkan {
   std::function<void(const HostMemory&)> free{};
 };
 
-/// Extensions and features with which a host should open a device. Ringlet also works without them, slower
-/// where kernels then do not know the width of a subgroup.
+/// Extensions and features with which a host should open a device. Ringlet also works without them, but more
+/// slowly where kernels then do not know the width of a subgroup.
 struct HostVulkanNeeds {
   std::vector<std::string> extensions;
   bool subgroupSizeControl = false;  // features, of VkPhysicalDeviceSubgroupSizeControlFeatures
@@ -99,8 +99,8 @@ class ComputeDevice {
   std::string driver() const;
   DeviceLimits limits() const;
 
-  /// Fails in a process that fork() made of the one which opened the device: nothing that was made with it
-  /// is of use there. Every function that needs the device's work fails so.
+  /// Fails in a child process made by fork() after the device was opened: nothing that was made with the
+  /// device works there. Every function that needs the device fails in the same way.
   Status checkProcess() const;
 
   /// Messages of the validation layer so far (it is on when RINGLET_VALIDATION=1); a correct program has

@@ -1,4 +1,4 @@
-// Diagnostics: what tests, benchmarks and who looks for a fault or for time ask of a simulation.
+// Diagnostics: internals of a simulation, for tests, benchmarks, profiling and debugging.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct DeviceMemory {
   std::uint64_t contacts = 0;      // contact particles, their grid, pairs of strands that may touch
   std::uint64_t contactLists = 0;  // at their present length
   std::uint64_t volume = 0;        // of strands that meet as a volume: particles, grid
-  std::uint64_t world = 0;         // the head's poses, bodies with their grids, air
+  std::uint64_t world = 0;         // the head's poses, bodies with their distance grids, air
   std::uint64_t frames = 0;        // in flight, in the host's memory: positions read back, poses, air
   std::uint64_t shared = 0;        // of particles and strands: held once for all simulations of an asset
 
@@ -43,24 +43,25 @@ struct ListedContact {
   float stiffnessShare = 0, dampingShare = 0;
 };
 
-/// Stage of the copy of positions to the host, which is no stepping.
+/// Name of the stage that copies positions to the host; it is not part of stepping.
 inline constexpr const char* kCopyStage = "copy_out";
 
-/// What a frame spent on one dispatch, or one copy.
+/// Time of one dispatch or one copy of a frame.
 struct StageSpan {
   std::string stage;
-  double begin = 0;  // on the device's clock, from any zero; without timestamps from the submission on [ms]
+  double begin = 0;  // on the device's clock, from an arbitrary zero; without timestamps from the submission
+                     // on [ms]
   double milliseconds = 0;  // as stageMilliseconds counts them
 };
 
-/// What the host spent on the device [ms].
+/// Host time spent on the device [ms].
 struct HostMilliseconds {
-  double submit = 0;  // handing frames to it, and recording them where they are new
-  double fence = 0;   // standing at its fences
+  double submit = 0;  // submitting frames, and recording them if they are new
+  double fence = 0;   // waiting for its fences
 };
 
-/// Of one simulation, which must live as long. All functions but `kernels`, `rigidStrandCount` and the times
-/// wait for frames in flight.
+/// Of one simulation, which must outlive this. All functions except `kernels`, `rigidStrandCount` and the
+/// times wait for frames in flight.
 class Diagnostics {
  public:
   explicit Diagnostics(const Simulation& hair) : hair_(&hair) {}
@@ -68,13 +69,13 @@ class Diagnostics {
   /// The pairs of particles in the lists (groom order, a < b, sorted). Empty without contacts; rigid strands
   /// are in none.
   Result<std::vector<ListedContact>> listedContacts() const;
-  /// One intermediate of the last step in groom order, four floats a particle (an edge's at its particle i),
-  /// 0 of rigid strands; `field` is one of layout/strands.h's kTap... Needs KernelChoice::taps.
+  /// One intermediate of the last step in groom order, four floats a particle (an edge's at its particle i);
+  /// 0 for rigid strands. `field` is a kTap... constant of layout/strands.h. Needs KernelChoice::taps.
   Result<std::vector<std::array<float, 4>>> tap(std::uint32_t field) const;
-  /// What the device holds in each buffer that the hair's kernels see and that is not empty; a buffer of the
+  /// The contents of each device buffer that the hair's kernels use and that is not empty; a buffer of the
   /// groom's second chunk is called NAME_1, and so on. Layouts: shaders/shared and shaders/layout.
   Result<std::vector<BufferContent>> bufferContents() const;
-  /// The recording of the last frame submitted, or of the first one (Recorder::recorded).
+  /// The commands of the last frame submitted, or of the first one (Recorder::recorded).
   std::vector<std::string> recordedFrame() const;
   /// Present sizes; a frame in flight may still enlarge contact lists. The driver may need a little more for
   /// each of some dozen buffers.
@@ -87,9 +88,9 @@ class Diagnostics {
   /// Milliseconds spent on the device, by stage, summed over all frames waited for; by GPU timestamps where
   /// the device has them, and then with kCopyStage.
   std::map<std::string, double> stageMilliseconds() const;
-  /// The dispatches of the frame waited for last, in order; whenever framePositions may be asked.
+  /// The dispatches of the frame waited for last, in order. May be called whenever framePositions may.
   std::vector<StageSpan> frameStages() const;
-  /// What the host spent on the device, summed likewise.
+  /// Host time spent on the device, over all frames waited for.
   HostMilliseconds hostMilliseconds() const;
   /// Time to make the kernels, mostly the driver's compiler [ms]. It is part of create. A device compiles
   /// each kernel once for all its simulations.

@@ -28,7 +28,7 @@ class HairAsset {
   static Result<HairAsset> build(const ComputeDevice& device, const Groom& groom, const Material& material,
                                  const Settings& settings, const KernelChoice& kernel = {});
 
-  /// Numbers of the groom.
+  /// Counts of the groom.
   std::size_t strandCount() const;
   std::size_t particleCount() const;
   /// Number of strands that are carried rigidly (rest/rigid_strands.h).

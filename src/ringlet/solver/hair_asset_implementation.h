@@ -1,4 +1,4 @@
-// What a HairAsset holds, for the files that implement it and simulations of it.
+// The members of a HairAsset, for the files that implement it and for its simulations.
 #pragma once
 
 #include <cstdint>
@@ -25,23 +25,23 @@
 
 namespace ringlet {
 
-/// What of an asset depends on the features that its hair uses.
+/// The part of an asset that depends on the features its hair uses.
 struct FeaturePlan {
   Features features;
   std::vector<StrandRange> ranges{};
-  std::vector<StrandRange> firstRanges{};  // of the first solve of a step, if that has kernels of its own
+  std::vector<StrandRange> firstRanges{};  // for the first solve of a step, if it has kernels of its own
   std::uint32_t groupSize = 0;             // workgroup size of strand kernels
   std::vector<GoalUnit> goalUnits{};       // with goals, of each particle, device order
 };
 
-/// Those that were asked for; for any thread.
+/// The plans asked for so far. Thread-safe.
 struct FeaturePlans {
   std::mutex guard;
   std::map<Features, std::shared_ptr<const FeaturePlan>> made;
 };
 
-/// Whether hair with these settings can be divided (KernelChoice::part, link): no feature may need all of its
-/// strands, and contacts need a link.
+/// Fails if hair with these settings cannot be divided (KernelChoice::part, link): because a feature needs
+/// all of its strands, or because contacts have no link.
 Status checkPart(const Settings& settings, const PartLink* link);
 
 struct HairAsset::Implementation {
@@ -60,18 +60,18 @@ struct HairAsset::Implementation {
   std::vector<ConstantChunk> constants{};
   FramePlaces framePlaces{};
   std::shared_ptr<HeadPlaces> places{};   // of many small heads; none: each has its own buffers
-  std::optional<GroomGoal> goal{};        // where Settings::goal is on
+  std::optional<GroomGoal> goal{};        // if Settings::goal is on
   std::unique_ptr<FeaturePlans> plans{};  // never null
 
-  /// With these features. Fails, with advice, where the settings have none of them, or a step is too long for
-  /// the device.
+  /// The plan for these features. Fails, with advice, where the settings do not allow them, or where a step
+  /// is too long for the device.
   Result<std::shared_ptr<const FeaturePlan>> plan(const Features& features) const;
 
-  /// Of rest state, settings, material, choice, device, driver and version: what a checkpoint of its hair
-  /// depends on.
+  /// A hash of rest state, settings, material, choice, device, driver and version: all that a checkpoint of
+  /// its hair depends on.
   std::uint64_t fingerprint() const;
   ContactKinds kinds() const { return contacts ? contacts->kinds : ContactKinds{}; }
-  /// Of the inputs of a simulation with this plan.
+  /// What the inputs of a simulation with this plan are made from.
   InputSource inputSource(const FeaturePlan& plan, const InitialState& initial,
                           const std::optional<HeadPlace>& place) const;
 

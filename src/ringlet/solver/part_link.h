@@ -12,8 +12,8 @@
 
 namespace ringlet {
 
-/// Each part has its own. If all parts have the same groom, settings and frames, and devices of one kind,
-/// each strand has the same bits as in undivided hair.
+/// Each part has its own link. If all parts have the same groom, settings and frames, and devices of one
+/// kind, each strand has the same bits as in undivided hair.
 class PartLink {
  public:
   virtual ~PartLink() = default;
@@ -23,17 +23,18 @@ class PartLink {
   /// The index of this part.
   std::size_t own() const { return own_; }
 
-  /// Data for another part, and room for its data for this one.
+  /// `out`: data for another part; `in`: where that part's data for this one is written.
   struct Message {
     std::size_t part = 0;
     std::span<const std::byte> out;
     std::span<std::byte> in;
   };
   /// Exchanges messages. All parts call this and the functions below equally often, and wait for each other.
-  /// Two parts both have a message for each other, of the sizes that both expect, or neither has. All fail if
-  /// a part has failed.
+  /// Two parts either both have a message for each other, of the sizes that both expect, or neither has.
+  /// Fails for all if a part has failed.
   virtual Status exchange(std::span<const Message> messages) = 0;
-  /// Replaces each number by the sum of all parts', modulo 2^32, or by the largest. All have as many.
+  /// Replaces each number by the sum over all parts, modulo 2^32, or by the largest. All parts pass equally
+  /// many numbers.
   virtual Status sum(std::span<std::uint32_t> numbers) = 0;
   virtual Status largest(std::span<std::int32_t> numbers) = 0;
   /// Tells the others that this part has failed, so that they stop waiting for it.

@@ -12,10 +12,10 @@
 
 namespace ringlet {
 
-/// Frames of the parts are stepped at the same time, each on a thread of its own.
+/// Each part steps its frames on a thread of its own, all at the same time.
 class SharedLink : public PartLink {
  public:
-  /// One for each part, in order.
+  /// One link for each part, in order.
   static std::vector<std::unique_ptr<SharedLink>> connect(
       const std::vector<std::vector<std::uint32_t>>& parts);
 
@@ -31,7 +31,7 @@ class SharedLink : public PartLink {
   SharedLink(std::vector<std::vector<std::uint32_t>> parts, std::size_t own, std::shared_ptr<Meeting> meeting)
       : PartLink(std::move(parts), own), meeting_(std::move(meeting)) {}
   std::shared_ptr<Meeting> meeting_;
-  std::vector<std::byte> joined_;  // while the others read what it will replace
+  std::vector<std::byte> joined_;  // result of reduce, while the other parts still read `numbers`
 };
 
 }  // namespace ringlet

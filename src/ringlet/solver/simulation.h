@@ -37,19 +37,19 @@ class Buffer;
 
 /// Numerical state of a simulation since it began.
 struct SimulationReport {
-  double maxEdgeStretch = 0;    // longest edge over its length in the groom, over all outer steps; infinite
-                                // once a number is not finite
+  double maxEdgeStretch = 0;    // highest ratio of an edge's length to its length in the groom, over all
+                                // outer steps; infinite once a number is not finite
   double limitedShare = 0;      // share of edges, over all steps, that the stretch limit changed
   std::uint64_t nonfinite = 0;  // particles whose position or velocity is not finite now
   std::int64_t firstNonfiniteStrand = -1;  // strand (groom order) and particle of the first of them, or -1
   std::int64_t firstNonfiniteParticle = -1;
-  double velocityResidual = 0;  // |r - L v| of the velocity solve over |r| and a step's gravity; worst strand
-                                // and step; 0 if not measured
+  double velocityResidual = 0;  // of the velocity solve: |r - L v| relative to |r| plus a step's gravity;
+                                // worst strand and step; 0 if not measured
   std::uint64_t degenerateEdges = 0;  // edges (times steps) that had no direction
 };
 
-/// What contacts gave to particles in a step [kg m/s]: the sum, which is nothing but for what the iteration
-/// left, and the sum of the sizes.
+/// Momentum that contacts gave to particles in a step [kg m/s]: the sum, which is 0 except for the error of
+/// the iteration, and the sum of the magnitudes.
 struct ContactMomentum {
   Vec3d sum{};
   double sizes = 0;
@@ -58,21 +58,22 @@ struct ContactMomentum {
 /// Counts of contacts. All are 0 without contacts.
 struct ContactReport {
   std::uint64_t contactParticles = 0;
-  std::uint64_t pairsUnpruned = 0;  // pairs of strands that overlap at rest when enlarged
-  std::uint64_t pairs = 0;          // of those, pairs that may touch
-  std::uint64_t volumeStrands = 0;  // strands that meet as a volume
+  std::uint64_t pairsUnpruned = 0;  // pairs of strands that overlap at rest with enlarged radii
+  std::uint64_t pairs = 0;          // of these, pairs that may touch
+  std::uint64_t volumeStrands = 0;  // strands in contact as a volume
   std::uint64_t listed = 0;         // pairs of particles in the lists now
   std::uint64_t contacts = 0;   // of these, pairs whose springs push; with the time taper, pairs that touch
                                 // or have not faded
   std::uint64_t pairTests = 0;  // pairs of particles tested since the simulation began, over all steps
   std::uint64_t rebuilds = 0;   // of the lists, since the simulation began
-  double momentumError = 0;     // of the last step: |sum of contact momenta| over the sum of their sizes
-  std::uint64_t volumeCut = 0;  // how often a particle's coupling to the volume was cut, since the simulation
-                                // began: it was larger than the volume's sums have room for
-  double volumeLargest = 0;     // the largest coupling as a share of that room; above 1 it was cut
-  double volumeCoarsest = 0;    // the largest cell of the volume's grid as a multiple of that asked for
-  // What listed, contacts and momentumError come from, of the strands that are simulated here: each pair has
-  // two sides.
+  double momentumError = 0;     // of the last step: |sum of contact momenta| over the sum of their magnitudes
+  std::uint64_t volumeCut = 0;  // how often a particle's coupling to the volume was cut off, since the
+                                // simulation began, because the volume's sums cannot hold more
+  double volumeLargest = 0;     // the largest coupling as a share of what the sums can hold; above 1 it was
+                                // cut off
+  double volumeCoarsest = 0;    // the largest cell of the volume's grid as a multiple of the size asked for
+  // The counts that listed, contacts and momentumError are derived from, of the strands that are simulated
+  // here; each pair has two sides.
   std::uint64_t listedSides = 0, contactSides = 0;
   ContactMomentum momentum{};
 
@@ -80,7 +81,7 @@ struct ContactReport {
     listed = listedSides / 2, contacts = contactSides / 2;
     momentumError = momentum.sizes > 0 ? length(momentum.sum) / momentum.sizes : 0;
   }
-  /// Another part of the same hair (KernelChoice::link).
+  /// Adds the report of another part of the same hair (KernelChoice::link).
   void add(const ContactReport& part) {
     listedSides += part.listedSides, contactSides += part.contactSides, pairTests += part.pairTests;
     volumeCut += part.volumeCut, volumeLargest = std::max(volumeLargest, part.volumeLargest);
@@ -88,14 +89,14 @@ struct ContactReport {
     momentum = {momentum.sum + part.momentum.sum, momentum.sizes + part.momentum.sizes};
     derive();
   }
-  /// Sentences for people: where the volume had no room for hair, and what to do.
+  /// Sentences for people: where the volume's sums could not hold the hair, and what to do.
   std::vector<std::string> warnings() const;
 };
 
 /// A head before its first frame. Members left out mean no motion. The spans are read until create returns.
 struct InitialState {
   HeadPose head{};
-  std::optional<HeadPose> oneStepEarlier{};  // one outer step before; the hair moves with the head
+  std::optional<HeadPose> oneStepEarlier{};  // one outer step before; the hair starts moving with the head
   std::span<const Body> bodies{};            // solids (Integrator::jacobi only)
   std::span<const BodyPose> bodyPlaces{};    // their poses; without, their poses at t = 0
   // Poses of the strands (Simulation::stepFrame), now and one outer step before, in groom order; BodyPose{}
@@ -155,12 +156,12 @@ class Simulation {
   Simulation& operator=(Simulation&&) noexcept;
   ~Simulation();
 
-  /// One frame: settings.stepsPerFrame outer steps; stepPoses[k] is the head's pose at the end of step k.
-  /// Where the head jumps (Settings::teleportDistance) hair is carried along, and does not move relative to
-  /// the head in this frame; afterwards it continues its motion. bodyPoses: as bodyPosesOf returns them for
-  /// these steps; without them the head carries all bodies. rootPoses[step * strands + strand], groom order:
-  /// each strand's pose in the head's frame at the end of each step, which
-  /// moves its root particles and its root frame; without them roots stay in place on the head.
+  /// One frame: settings.stepsPerFrame outer steps; stepPoses[k] is the head's pose at the end of step k. If
+  /// the head jumps (Settings::teleportDistance), hair is carried along and does not move relative to the
+  /// head in this frame; afterwards it continues its motion. bodyPoses: as bodyPosesOf returns them for these
+  /// steps; empty: the head carries all bodies. rootPoses[step * strands + strand], groom order: each
+  /// strand's pose in the head's frame at the end of each step, which moves its root particles and its root
+  /// frame; empty: roots stay in place on the head.
   ///   x_world = head.position + rotate(head.rotation, root.position + rotate(root.rotation, x_groom))
   Status stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses = {},
                    std::span<const BodyPose> rootPoses = {});
@@ -176,15 +177,15 @@ class Simulation {
                      std::span<const BodyPose> rootPoses = {});
   Status waitFrame();
   std::vector<Vec3f> framePositions() const;
-  /// The same into the groom's positions; of divided hair only those of the strands here change.
+  /// The same, written into positions of the whole groom; of divided hair only the strands here change.
   void framePositions(std::span<Vec3f> all) const;
-  /// The same in place, without a copy, for as long; not of divided hair.
+  /// The same in place, without a copy, valid as long; not for divided hair.
   std::span<const Vec3f> frameView() const;
   /// stepFrame with poses interpolated from the last one to `end`.
   Status stepFrame(const HeadPose& end);
 
-  /// Positions in groom order [m], relative to the head's origin, along world axes; world = head().position +
-  /// p.
+  /// Positions in groom order [m], relative to the head's origin, along world axes; in the world:
+  /// head().position + p.
   Result<std::vector<Vec3f>> positions() const;
   /// The same in device memory, without a copy: a buffer for each chunk of strands, valid as long as the
   /// simulation. Rigid strands are not in them.
@@ -228,37 +229,35 @@ class Simulation {
   /// write, and to copy in each frame; 68 bytes of memory.
   Status setForces(std::span<const Vec3f> forces);
   /// Pulls particles to places: `places` in groom order, in the groom's axes [m] (the groom itself is its
-  /// rest pose), each number from -1e6 to 1e6, carried by the head and by root poses as roots are. Each is
-  /// reached at the end of the next frame submitted, evenly from the place before or, with `from`, from
-  /// there, and held until others are set. `strengths` of every particle, 0 to 1e7: a goal of strength 1
-  /// holds the particle's own weight 1 cm away; initially they are 0. `dampingRatio`, 0 to 1000: of the
-  /// particle's motion about its place, critical at 1. The solve treats goals implicitly, so that any
-  /// strength is stable. Cost: 32 bytes a
-  /// particle to write, and to copy in each frame; 136 of memory. The strand kernel is that of bodies and
-  /// air.
+  /// rest pose), each number from -1e6 to 1e6; head and root poses carry them as they carry roots. Each place
+  /// is reached at the end of the next frame submitted, at a constant speed from the place before or, with
+  /// `from`, from there; it is held until others are set. `strengths` of every particle, 0 to 1e7: a goal of
+  /// strength 1 holds the particle's own weight 1 cm away; initially they are 0. `dampingRatio`, 0 to 1000:
+  /// of the particle's motion about its place, critical at 1. The solve treats goals implicitly, so that any
+  /// strength is stable. Cost: 32 bytes a particle to write, and to copy in each frame; 136 bytes of memory;
+  /// the strand kernel of bodies and air.
   Status setGoals(std::span<const Vec3f> places, std::span<const float> strengths, double dampingRatio = 1,
                   std::span<const Vec3f> from = {});
-  /// Replaces the fields that hair is in: as they are at the end of the next frame submitted, and from then
-  /// on until others are set. `from`: as they are at its start, from where they change evenly; without, they
-  /// do not change. The solve takes drag implicitly, so that any is stable, and accelerations explicitly: one
+  /// Replaces the force fields: `fields` are those at the end of the next frame submitted and later, until
+  /// others are set. `from`: those at its start, from which they change evenly; empty: they are `fields`
+  /// throughout. The solve treats drag implicitly, so that any is stable, and accelerations explicitly: one
   /// that pulls towards a place must not grow by more than about 1/T^2 a metre, T being the step. Fails,
-  /// without a change, on a number out of range and
-  /// on more than kMostForceFields. Cost: the strand kernel is that of bodies and air; another number of
-  /// fields or other grids wait for frames in flight.
+  /// without a change, on a number out of range and on more than kMostForceFields. Cost: the strand kernel of
+  /// bodies and air; another number of fields or other grids wait for frames in flight.
   Status setFields(std::span<const ForceField> fields, std::span<const ForceField> from = {});
   /// Adds features to those that this hair uses, as their first use does: waits for frames in flight,
-  /// compiles kernels, seconds on some drivers, and makes buffers. For hosts that want that at a time of
-  /// their own. Fails, without a change, where the settings have none of these features; and where the device
-  /// lacks memory: then the hair is lost.
+  /// compiles kernels, which takes seconds on some drivers, and makes buffers. For hosts that want to choose
+  /// when this happens. Fails, without a change, where the settings do not allow these features. Also fails
+  /// where the device lacks memory; then the hair is lost.
   Status prepare(const Features& features);
   /// Cuts strands, from the next frame on. What is kept stays as it was, with the same rest state; the edge
-  /// at the cut is no more, and what is cut off falls: bodies, air, fields and other hair that meets pair by
-  /// pair act on it, and no head and no goal. It keeps its places in groom order. A strand may be cut again,
-  /// nearer to its root. Needs the integrator jacobi; no frame is in flight. Strands that are carried rigidly
-  /// stay whole. Fails, without a change, for a part of hair, and where nothing would fall or fewer than two
-  /// particles, or fewer than follow the head, would stay. Checkpoints do not hold cuts: make the same ones,
-  /// call by call, before restore(). Cost: the strand kernel once more, compiled and in each frame, over the
-  /// strands that are cut.
+  /// at the cut is removed, and what is cut off falls: bodies, air, fields and other hair in contact pair by
+  /// pair act on it, head and goals do not. It keeps its places in groom order. A strand may be cut again,
+  /// nearer to its root. Needs the integrator jacobi and no frame in flight. Strands that are carried rigidly
+  /// stay whole. Fails, without a change, for a part of hair, where nothing would fall, and where fewer than
+  /// two particles would stay, or fewer than follow the head. Checkpoints do not hold cuts: make the same
+  /// ones, call by call, before restore(). Cost: a second strand kernel, to compile and to run in each frame
+  /// over the strands that are cut.
   Status cut(std::span<const StrandCut> cuts);
   /// The present settings and material; initially the asset's. Checkpoints hold neither them nor bodies,
   /// forces, goals and fields: set these before restore().

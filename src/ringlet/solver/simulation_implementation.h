@@ -1,6 +1,6 @@
-// The members of a Simulation, for the files that implement it: simulation_frames.cpp, divided_frames.cpp
-// and hair_frames.cpp, its frames; diagnostics.cpp; simulation_settings.cpp, what changes between them;
-// simulation_cuts.cpp, cuts; simulation.cpp, all else.
+// The members of a Simulation, for the files that implement it: its frames in simulation_frames.cpp,
+// divided_frames.cpp and hair_frames.cpp; diagnostics.cpp; changes between frames in simulation_settings.cpp;
+// cuts in simulation_cuts.cpp; kernels in simulation_kernels.cpp; everything else in simulation.cpp.
 #pragma once
 
 #include <cstdint>
@@ -46,33 +46,33 @@ struct FrameRecording {
   gpu::CommandList& list;
   SubmissionPace& pace;
   std::size_t slot = 0;
-  // Whose strands its dispatches step: this head's and those behind it in the row; 0: none, another head's
-  // do.
+  // Number of heads that its dispatches step: this one and those after it in its row; 0: none, since another
+  // head's dispatches step this one.
   std::uint32_t heads = 1;
   double particleSteps = 0;  // of strands
-  bool repeatsStep = false;  // of divided hair: its lists found no room
+  bool repeatsStep = false;  // of divided hair: a step is repeated because lists were too short
 };
 
-// What parts of divided hair have exchanged in a step, for one that repeats it.
+// What parts of divided hair have exchanged in a step, kept in case a part repeats it.
 struct PartStep {
   ContactStage::Largest largest{};
   std::optional<ContactStage::Sample> sample{};  // of all parts
 };
 
-// What a head has in place of the asset's constants.
+// The constants that a head has in place of the asset's.
 struct HeadConstants {
-  std::vector<layout::StrandRest> strands{};   // of a head whose roots are shifted; none: the asset's
+  std::vector<layout::StrandRest> strands{};   // if its roots are shifted; empty: the asset's
   std::optional<LiveMaterial> liveMaterial{};  // once the material has changed
   std::vector<std::string> warnings{};
 };
 
-// What the device and the host spent since the simulation began.
+// Time that the device and the host have spent since the simulation began.
 struct SpentTimes {
   std::map<std::string, double> stages{};  // [ms]
   HostMilliseconds host{};
   double compileMilliseconds = 0;
 
-  // Of its last submission.
+  // Adds the times of the recorder's last submission.
   void add(const gpu::Recorder& recorder);
 };
 
@@ -119,7 +119,7 @@ struct Simulation::Implementation {
   Status addContacts();
   Status placeAtRest();
   Status carry(const HeadHistory& before);
-  // Of inputs that are made anew.
+  // What inputs that are made anew are made from.
   InputSource inputSource() const;
   DeviceGroom& changed();
   Status archive(Archive& archive);

@@ -7,19 +7,21 @@
 
 namespace ringlet {
 
-/// Particles a lane holds: not fewer than can be pinned; in registers, of any device (a device's longest run:
-/// shape_plan.h); in memory: a CPU device keeps 8 such runs, 3 MB, on the stack of a thread.
+/// Particles of a lane. The shortest run holds all particles that can be pinned. The longest in registers is
+/// the limit over all devices (of one device: longestRun of shape_plan.h). The longest in memory: a CPU
+/// device keeps 8 such runs, 3 MB, on the stack of a thread.
 inline constexpr std::uint32_t kShortestRun = 4, kLongestRun = 64, kLongestRunInMemory = 1024;
 
 /// The properties of a device that the plan depends on.
 struct DeviceLimits {
-  std::uint32_t subgroupSize = 1;  // the strand kernels are planned for, and ask for where they can
+  std::uint32_t subgroupSize = 1;  // width for which strand kernels are planned; they ask the driver for it
+                                   // where they can
   bool hasSubgroupShuffle = false;
-  bool isCpu = false;  // costs are those of a CPU device
+  bool isCpu = false;  // the cost model is that of a CPU device
   std::uint32_t maxGroupCount = 65535;
-  bool endsLoopsEarly = false;  // silently ends the loops of an invocation after 65,535 turns in all
-  std::uint32_t minSubgroupSize = 0, maxSubgroupSize = 0;  // the powers of two that can be asked for; 0: none
-                                                           // but subgroupSize
+  bool endsLoopsEarly = false;  // ends an invocation's loops silently after 65,535 turns in all
+  std::uint32_t minSubgroupSize = 0, maxSubgroupSize = 0;  // powers of two that can be asked for; 0: only
+                                                           // subgroupSize
   std::uint32_t longestRunInMemory = kLongestRunInMemory;
 };
 
@@ -35,13 +37,14 @@ struct StrandShape {
   bool operator==(const StrandShape&) const = default;
 };
 
-/// Stands for all serial shapes; its cost is that of a particle.
+/// Stands for all serial shapes; its cost is that of a single particle.
 inline constexpr StrandShape kAnySerialShape{.lanes = 1, .particlesPerLane = 0, .inMemory = true};
 
 /// Device time, for many strands.
 struct ShapeCost {
   StrandShape shape;
-  double nanoseconds = 0;  // of one outer step of one strand, however long; kAnySerialShape: of a particle
+  double nanoseconds = 0;  // of one outer step of one strand, whatever its length; kAnySerialShape: of one
+                           // particle
 };
 
 /// Hash of the code of the strand kernels for hair alone, 16 hexadecimal digits. Measured costs hold for this

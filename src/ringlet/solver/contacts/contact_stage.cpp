@@ -22,8 +22,8 @@ namespace {
 
 // Initial limit of the blocks in a contact particle's list.
 constexpr std::uint32_t kFirstMostNearBlocks = 4;
-// contact_motion.comp takes what is left in turns: a maximum then takes fewer atomics, and a processor, for
-// which a barrier is dear, fewer of these.
+// Most workgroups of contact_motion.comp; a lane loops over the particles that exceed them. Fewer workgroups
+// mean fewer atomics for the maximum, and, on a CPU device, fewer barriers, which are slow there.
 constexpr std::uint32_t kMotionGroups = 4096, kMotionGroupsOfCpu = 64;
 
 // Offsets of the group counts that the device writes for indirect dispatches.
@@ -51,15 +51,15 @@ std::vector<layout::ContactRest> contactRests(const RestState& rest, const Setti
   return rests;
 }
 
-// Hair is dense if its contact particles have more neighbours than this at rest, nearer than 1.5 R. There a
-// sample of contact particles decides how long lists are kept.
+// Dense hair has more neighbours than this per contact particle at rest, nearer than 1.5 R. There a sample of
+// contact particles decides how long lists are kept.
 constexpr double kDenseNeighbours = 16;
-// Reach of the lists there, in r0. Pairs that approach faster are found one step later. The cost of the
-// search grows with its cube.
+// Reach of the lists of dense hair, in r0. Pairs that approach faster are found one step later. The cost of
+// the search grows with the cube of the reach.
 constexpr double kDenseAhead = 1.3;
 
-// The sample is one contact particle in this number; 0 if hair is not dense. Overlaps were counted with
-// enlarged radii.
+// The sample takes one contact particle in this many; 0 if hair is not dense. overlapsPerParticle was counted
+// with enlarged radii.
 std::uint32_t sampleStride(const RestContacts& contacts, const ContactSettings& settings) {
   const double neighbours = 2 * contacts.overlapsPerParticle * std::pow(1.5 / settings.enlargement, 3);
   constexpr double kMostStride = 32;
@@ -91,12 +91,13 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   self.everyPair_ = contacts.graph.everyPair;
   self.isDivided_ = divided;
   self.mostMotionGroups_ = device.properties().isCpu ? kMotionGroupsOfCpu : kMotionGroups;
-  // If some hair meets as a volume, few contact particles touch others, and a sample may hold none of these.
+  // If some hair meets as a volume, few contact particles are in pairs, and a sample may contain none of
+  // these.
   const bool inGroups = contacts.volume.hasGroups();
   self.sampleStride_ = inGroups ? 0 : sampleStride(contacts, settings.contacts);
   self.largestRadius_ = contacts.largestRadius;
   const std::uint64_t count = self.particles_.size();
-  SampledContacts samples{{0}, 0};  // of divided hair only
+  SampledContacts samples{{0}, 0};  // the list is needed only for divided hair
   if (self.sampleStride_ > 0) {
     const std::uint32_t stride = self.sampleStride_;
     samples.most = static_cast<std::uint32_t>((count + stride - 1) / stride);
@@ -193,13 +194,13 @@ Status ContactStage::writeControl() {
   return groom_->contactControl.upload(std::as_bytes(std::span(&control_, 1)));
 }
 
-// While no kernel reads them.
+// Uploads the numbers. No kernel may be reading them.
 Status ContactStage::writeNumbers() {
   const layout::ContactNumbers now = numbers();
   return buffers_->numbers.upload(std::as_bytes(std::span(&now, 1)));
 }
 
-// Makes the lists, as large as `near_` says. The old ones are freed first.
+// Makes lists of the size that `near_` says. The old ones are freed first.
 Status ContactStage::createLists() {
   lists_.clear();
   const ListMaker::Part parts[] = {
@@ -211,7 +212,7 @@ Status ContactStage::createLists() {
   return {};
 }
 
-// The lists in the table of bindings, and their room among the numbers.
+// Binds the lists, and writes their room into the numbers.
 Status ContactStage::bindLists() {
   bindings_.clear();
   for (const auto& kernel : kernels_) {
@@ -363,8 +364,8 @@ Status ContactStage::setSample(const Sample& sample) {
   return writeControl();
 }
 
-// Prepares to repeat the step, from the contacts of the last step, in larger buffers. Lists that had room are
-// kept, so that their content does not depend on the room there was.
+// Prepares to repeat the step in larger buffers, from the contacts of the last step. Lists that were large
+// enough are kept, so that their content does not depend on how large the others were.
 Status ContactStage::makeRoom() {
   layout::ContactControl& c = control_;
   if (lives_) {

@@ -10,9 +10,9 @@
 namespace ringlet {
 namespace {
 
-constexpr std::uint64_t kRowBytes = 32ull << 20;  // of positions, at most
+constexpr std::uint64_t kRowBytes = 32ull << 20;  // most bytes of positions in a row
 
-// The least number of records, `count` or more, after which a buffer may begin.
+// The smallest number of records, `count` or more, that ends at a valid buffer offset.
 std::uint32_t stride(std::uint32_t count, std::uint64_t recordBytes, std::uint64_t alignment) {
   while (count * recordBytes % alignment != 0) ++count;
   return count;
@@ -28,7 +28,7 @@ gpu::BufferTable HeadBuffers::bufferTable() const {
 
 Result<std::shared_ptr<HeadPlaces>> HeadPlaces::create(gpu::Device& device, const GroomChunk& part,
                                                        const GroomRecords& records, int heads) {
-  // What the alignment is, a buffer says.
+  // Only a buffer knows the alignment of its offsets.
   const auto sample = gpu::Buffer::create(device, 0, gpu::BufferKind::storage, "sample");
   if (!sample) return sample.error();
   const std::uint64_t alignment = sample->alignment();
@@ -39,7 +39,7 @@ Result<std::shared_ptr<HeadPlaces>> HeadPlaces::create(gpu::Device& device, cons
   const std::uint64_t seen = device.properties().maxTexelRecords * sizeof(layout::vec4);
   std::uint64_t most = std::min(static_cast<std::uint64_t>(heads), kRowBytes / bytes);
   most = std::min(most, seen / (strides.stepPoses * sizeof(layout::StepPose)));
-  if (bytes <= seen) most = std::min(most, seen / bytes);  // a head seen as texels is so in a row too
+  if (bytes <= seen) most = std::min(most, seen / bytes);  // a head that fits texels must fit in a row
   if (most < 2) return std::shared_ptr<HeadPlaces>();
   return std::shared_ptr<HeadPlaces>(
       new HeadPlaces(device, part, records, strides, static_cast<std::uint32_t>(most)));
@@ -65,7 +65,7 @@ Result<HeadRow> HeadPlaces::makeRow() const {
       .isTaken = std::vector<bool>(heads_)};
 }
 
-// The last head's part ends with what it has, not with what the next one begins after.
+// The part ends with the last head's own records, without the padding to the next head.
 Result<HeadBuffers> HeadPlace::part(std::uint32_t heads) const {
   const HeadRow& row = *row_;
   const auto of = [&](const gpu::Buffer& whole, std::uint64_t record, std::uint32_t stride,

@@ -11,19 +11,19 @@
 namespace ringlet {
 namespace {
 
-// Loop turns of a dispatch: a little fewer than those after which such a device ends loops. Other devices
-// have no such limit; theirs keeps a dispatch so short that it does not pass for a hang.
+// Limit of loop turns of a dispatch. On devices that end loops early it is a little below the number at which
+// they do. Other devices have no such limit; theirs keeps a dispatch short enough not to be taken for a hang.
 std::uint64_t loopBudget(const DeviceLimits& limits) { return limits.endsLoopsEarly ? 65000 : 4'000'000; }
 
-// Upper bounds of loop turns.
+// Upper bounds of loop turns, for one step.
 struct LoopCost {
-  std::uint64_t step = 0;  // of a step, but for its solve loops
+  std::uint64_t step = 0;  // without solve loops
   std::uint64_t perSolveLoop = 0;
-  std::uint64_t solveLoops = 0;  // of a step
-  std::uint64_t pressed = 0;     // in addition, of a step in which a whole strand is pressed onto bodies
+  std::uint64_t solveLoops = 0;
+  std::uint64_t pressed = 0;  // additional turns if a whole strand is pressed onto bodies
 };
 
-// Turns of a scan over lanes and of its squarings over the bits of the run; one lane needs none.
+// Turns of a scan over lanes, and of its squarings over the bits of the run; a single lane needs none.
 std::uint64_t scanCost(const StrandShape& shape) {
   return shape.lanes == 1 ? 0 : std::countr_zero(shape.lanes) + std::bit_width(shape.particlesPerLane) + 2;
 }
@@ -33,13 +33,13 @@ LoopCost loopCost(const StrandRange& range, const Settings& settings, std::size_
   const bool inMemory = range.shape.inMemory;
   const std::uint64_t run = range.shape.particlesPerLane + (inMemory ? 1 : 8);
   LoopCost cost;
-  // Sweeps over the run. In memory these include 12 over waves of turbulent wind and, with bodies, those of
-  // two more solves and of one round after the move.
+  // Sweeps over the run. In memory, air adds 12 for the waves of turbulence, and bodies add those of two more
+  // solves and of one round after the move.
   const std::uint64_t sweeps = inMemory ? 24 + (settings.air.on ? 14 : 0) + (bodyCount > 0 ? 20 : 0) : 20;
-  // A body near the run costs, in registers, up to 17 evaluations per particle and per edge, and the same in
+  // In registers a body near the run costs up to 17 evaluations per particle and per edge, and as many in
   // each of eight rounds after the move; a run is never near more than four bodies. In memory runs are long,
-  // and rarely all of their particles are at the body. If they are, the other seven rounds take 45 more
-  // sweeps, and each body takes 42 turns per particle in the solve and 24 in every round.
+  // and rarely all of their particles are at the body. If they are (`pressed`), the other seven rounds take
+  // 45 more sweeps, and each body takes 42 turns per particle in the solve and 24 in each round.
   const std::uint64_t inTheWay = std::min<std::uint64_t>(bodyCount, 4);
   cost.step = sweeps * run + inTheWay * run * (inMemory ? 24 : 178) + 30 * bodyCount;
   // Four scans with squarings, and up to twelve others.
@@ -79,7 +79,7 @@ Result<std::vector<PlannedDispatch>> planSteps(const StrandRange& range, const D
   const std::uint64_t whole = cost.step + cost.solveLoops * cost.perSolveLoop;
   const std::uint32_t steps = static_cast<std::uint32_t>(settings.stepsPerFrame);
   if (whole > budget) return tooLong(range, settings, whole, budget);
-  // If a single step may exceed the budget, each piece is one step.
+  // If a single step may exceed the budget with `pressed`, each piece is one step.
   const std::uint64_t stepsThatFit = std::max<std::uint64_t>(1, budget / (whole + cost.pressed));
   const std::uint64_t particles = std::uint64_t{range.end - range.begin} * range.longest;
   const std::uint64_t bound =
@@ -91,7 +91,8 @@ Result<std::vector<PlannedDispatch>> planSteps(const StrandRange& range, const D
   return pieces;
 }
 
-// The pieces of a range, each of as many strands as the device has groups and `mostParticleSteps` allows.
+// Cuts the pieces of a range into dispatches of as many strands as maxGroupCount and `mostParticleSteps`
+// allow.
 void spreadOverGroups(std::vector<PlannedDispatch>& plan, const StrandRange& range, std::uint32_t index,
                       const DeviceLimits& limits, std::uint32_t groupSize,
                       std::span<const PlannedDispatch> pieces, std::uint64_t mostParticleSteps) {
@@ -135,7 +136,7 @@ Result<std::vector<PlannedDispatch>> planPass(std::span<const StrandRange> range
   for (std::uint32_t r = 0; r < ranges.size(); ++r) {
     const std::uint64_t turns = 2 * loopCost(ranges[r], settings, bodyCount).step;
     if (turns > loopBudget(limits)) return tooLong(ranges[r], settings, turns, loopBudget(limits));
-    // A lane keeps no state between solves and computes forces again.
+    // A lane keeps no state between solves, so each dispatch computes forces again.
     const PlannedDispatch piece{
         .stepBegin = pass.step,
         .stepEnd = pass.step + (pass.goesOn ? 2 : 1),

@@ -21,23 +21,22 @@ struct PlannedDispatch {
   std::uint32_t groupCount = 0;
 };
 
-/// Workgroups of a dispatch for so many heads.
+/// Number of workgroups of a dispatch over this many heads.
 std::uint32_t groupCountOf(const PlannedDispatch& dispatch, const StrandShape& shape, std::uint32_t groupSize,
                            std::uint32_t heads = 1);
 
 /// One solve of a step with contacts.
 struct SolvePass {
   std::uint32_t step = 0;
-  bool withContacts = false;  // false: the step's first solve, without them
-  bool moves = false;         // it is the last solve of the step, and strands move
+  bool withContacts = false;  // false: the step's first solve
+  bool moves = false;         // the last solve of the step: strands move after it
   bool goesOn = false;        // the first solve of the next step follows in the same dispatch
 };
 
-/// No bound on a dispatch besides the device's.
+/// No limit on a dispatch besides the device's.
 inline constexpr std::uint64_t kAnyParticleSteps = ~std::uint64_t{0};
 
-/// Particle steps of a dispatch: its strands times the particles of the range's longest strand times its
-/// steps.
+/// Cost of a dispatch: its strands times the particles of the range's longest strand times its steps.
 std::uint64_t particleStepsOf(const PlannedDispatch& dispatch, std::span<const StrandRange> ranges);
 
 /// Whether the later of two consecutive dispatches reads the results of the earlier one. If not, they may run
@@ -51,7 +50,7 @@ Result<std::vector<PlannedDispatch>> planPass(std::span<const StrandRange> range
                                               std::uint64_t mostParticleSteps = kAnyParticleSteps);
 
 /// The dispatches of one frame, in order; those of one range depend on each other, those of different ranges
-/// do not. None has more than `mostParticleSteps`, but for one step of a workgroup. Fails where a step cannot
+/// do not. None exceeds `mostParticleSteps`, except a single step of one workgroup. Fails where a step cannot
 /// be cut small enough for the device.
 Result<std::vector<PlannedDispatch>> planFrame(std::span<const StrandRange> ranges,
                                                const DeviceLimits& limits, const Settings& settings,

@@ -39,8 +39,8 @@ class FramePlanner {
     }
   }
 
-  // A step up to its first solve with contacts, without the volume's means. Contacts come first: they may
-  // halt the frame, and then the volume must not go on.
+  // The stages of a step before its first solve with contacts, without the volume's means. Pairs come first:
+  // they may halt the frame, and then the volume must not go on.
   void contactsOf(std::uint32_t step) {
     if (needs_.contacts.pairs) {
       if (needs_.isDivided) add({.stage = FrameStage::rowsIn, .step = step});
@@ -57,7 +57,7 @@ class FramePlanner {
     if (!needs_.contacts.volume) return;
     if (needs_.sorts && needs_.sorts(step)) add({.stage = FrameStage::sort, .step = step});
     add({.stage = FrameStage::sums, .step = step, .isFirst = true});
-    // The volume's means need the sums of all parts.
+    // The means need the sums of all parts.
     exchange({.step = step, .isFirst = true, .exchange = Exchange::sums});
   }
 
@@ -67,8 +67,8 @@ class FramePlanner {
     add({.stage = FrameStage::next, .step = step});
   }
 
-  // A pass, and what is measured after it. A part steps its border first: while the rows of that are on their
-  // way, the device steps the other strands.
+  // A solve pass, and the measurements after it. A part steps its border strands first, and steps the others
+  // while the border's rows are being exchanged.
   void solve(const SolvePass& pass) {
     const bool endsFrame = pass.moves && !pass.goesOn;
     const Rows rows = pass.withContacts && !pass.moves ? Rows::solve : Rows::step;
@@ -83,7 +83,7 @@ class FramePlanner {
     if (!endsFrame) measure(pass.goesOn ? pass.step + 1 : pass.step, rows == Rows::step);
   }
 
-  // What can be measured without the other parts, at the start of a step or between its solves.
+  // Measurements that need no data of other parts, at the start of a step or between its solves.
   void measure(std::uint32_t step, bool isStart) {
     if (needs_.contacts.volume) {
       add({.stage = FrameStage::brought, .step = step, .isFirst = isStart});
@@ -94,7 +94,8 @@ class FramePlanner {
     exchange({.step = step, .exchange = isStart ? Exchange::starts : Exchange::sums});
   }
 
-  // The pass of strands. Where the first solve knows no bodies, a pass that goes on is two.
+  // The strand dispatches of a pass. If the first solve leaves bodies out, a pass that goes on becomes two
+  // dispatches.
   void solveOf(const SolvePass& pass, StrandsOf strands) {
     PlannedStage one{.stage = FrameStage::solve, .step = pass.step, .pass = pass, .strands = strands};
     if (!needs_.predictsWithoutBodies) return add(one);

@@ -1,8 +1,7 @@
-// The plan of a frame: its stages, in order. This is the only place that knows the order; one loop records it
-// (simulation_frames.cpp), and frames of divided hair end a submission at each exchange (divided_frames.cpp).
+// The plan of a frame: its stages, in order. Only this file knows the order: simulation_frames.cpp records
+// the plan in one loop, and frames of divided hair end a submission at each exchange (divided_frames.cpp).
 // Pure: no device. Mirrored by reference/kernels/contact_step.h and volume_step.h, which keep an order of
 // their own to check this one.
-//
 //   inputs -> solve v^0 -> motion, grid, lists, touch, sums, means -> solve v^1
 //          -> next, sums, means -> solve v^2 ... -> move, and the next step's v^0 -> motion ...
 #pragma once
@@ -19,50 +18,52 @@
 namespace ringlet {
 
 enum class FrameStage : std::uint8_t {
-  inputs,    // copies of what the host wrote for the frame
-  steps,     // all steps of strands that touch no others
+  inputs,    // copies what the host wrote for the frame to the device
+  steps,     // all steps of strands without contacts
   solve,     // a pass of the strand kernels
   motion,    // how far contact particles have moved since their lists were made
-  grid,      // contact particles in a search grid, where lists are to be made
-  lists,     // who is near whom
-  touch,     // who touches whom; contact weights and momenta; may halt the frame for want of room
-  next,      // the same contacts after another solve
+  grid,      // sorts contact particles into a search grid, if lists are to be made
+  lists,     // makes the lists of neighbours
+  touch,     // finds contacts, their weights and momenta; may halt the frame if a list is too short
+  next,      // updates the same contacts after another solve
   brought,   // what each particle of the volume contributes
-  sort,      // the volume's particles by cell
-  sums,      // contributions at the volume's nodes
-  means,     // what the means give the particles
-  rowsOut,   // divided: rows of the own contact particles for other parts
-  rowsIn,    // divided: rows of the others'
-  reach,     // divided: the cells that all parts' particles are in
-  exchange,  // divided: the submission ends, and parts exchange (Exchange)
-  end,       // positions and the control block to the host
+  sort,      // sorts the volume's particles into cells
+  sums,      // sums the contributions at the volume's nodes
+  means,     // interpolates the means back to the particles
+  rowsOut,   // divided: packs rows of this part's contact particles for other parts
+  rowsIn,    // divided: unpacks the rows of other parts
+  reach,     // divided: writes the range of cells of all parts' particles
+  exchange,  // divided: ends the submission; parts exchange data (Exchange)
+  end,       // copies positions and the control block to the host
 };
 
 /// What parts of divided hair exchange where a submission ends.
 enum class Exchange : std::uint8_t {
   rows,    // of contact particles, while the next submission runs
   starts,  // at the start of a step: the largest motion, and the volume's reach
-  sample,  // counts of the sample by which parts decide whether lists are made anew
-  sums,    // of the volume, and in a step that sorts its densities
+  sample,  // counts of the sample that decides whether lists are made anew
+  sums,    // of the volume, and of its densities in a step that sorts
 };
 
-/// Which strands of a part a solve is of: those that other parts may touch (RestHalo), the others, or all.
+/// The strands that a solve is of: those that other parts may touch (RestHalo), the others, or all.
 enum class StrandsOf : std::uint8_t { all, border, inner };
 
-/// Rows of contact particles: at a step's start x, v and v^0 of each, 36 bytes; after a solve v^k, 12 bytes.
+/// Kinds of rows of contact particles: at a step's start x, v and v^0, 36 bytes each; after a solve v^k, 12
+/// bytes.
 enum class Rows : std::uint8_t { step, solve };
 
 struct PlannedStage {
   FrameStage stage = FrameStage::end;
   std::uint32_t step = 0;
   bool barrier = true;   // a barrier follows
-  bool isFirst = false;  // brought, sums, exchange of sums: of the first iteration of a step
-  // Of motion: layout::kOfAll, kOfHere or kOfElsewhere, which is of all in a step that is repeated.
+  bool isFirst = false;  // for brought, sums and the exchange of sums: in the first iteration of a step
+  // For motion: layout::kOfAll, kOfHere or kOfElsewhere; a repeated step takes kOfAll in place of
+  // kOfElsewhere.
   std::uint32_t whose = 0;
   SolvePass pass{};
   StrandsOf strands = StrandsOf::all;
-  bool withoutBodies = false;  // a solve by the kernels that know no bodies
-  Rows rows = Rows::step;      // rowsOut, rowsIn, exchange of rows
+  bool withoutBodies = false;  // a solve by the kernels without bodies
+  Rows rows = Rows::step;      // for rowsOut, rowsIn and the exchange of rows
   Exchange exchange = Exchange::starts;
 };
 
@@ -72,8 +73,8 @@ struct FrameNeeds {
   std::uint32_t iterations = 1;  // solves of a step with contacts
   ContactKinds contacts{};
   bool sleeps = false;  // hair at rest: no steps
-  // The first solve of a step is by kernels that know no bodies: of hair as a volume among bodies. It is a
-  // prediction for the coupling; neighbours see what bodies do one step late (kContactWarmth).
+  // The first solve of a step leaves bodies out; for hair as a volume among bodies. It is a prediction for
+  // the coupling; neighbours see what bodies do one step late (kContactWarmth).
   bool predictsWithoutBodies = false;
   std::function<bool(std::uint32_t step)> sorts{};  // whether the volume sorts in this step; none: never
   bool isDivided = false, samples = false;          // divided: ContactStage::samples
@@ -81,7 +82,7 @@ struct FrameNeeds {
 
 std::vector<PlannedStage> stagesOf(const FrameNeeds& needs);
 
-/// Of a plan, where the contacts of a step begin: a frame that halted in it goes on from there.
+/// Index of the stage at which the contacts of a step begin: a frame that halted in the step continues there.
 std::size_t contactsBegin(std::span<const PlannedStage> plan, std::uint32_t step);
 
 }  // namespace ringlet

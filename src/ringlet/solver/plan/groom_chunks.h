@@ -29,7 +29,7 @@ struct GroomRecords {
            force + goals;
   }
   std::uint64_t perStrand() const { return strandRest + report + rootPoses; }
-  // In addition for each frame in flight, in host memory: positions read back; forces, goals and poses
+  // In addition, in host memory for each frame in flight: positions read back; forces, goals and poses
   // written.
   std::uint64_t perParticleOfFrame() const { return positionInFrame + force + goals; }
   std::uint64_t perStrandOfFrame() const { return rootPoses; }
@@ -48,9 +48,9 @@ struct GroomChunk {
   std::uint32_t particleCount() const { return particleEnd - particleBegin; }
 };
 
-/// Cuts strands, in device order, into the fewest chunks of which no buffer exceeds `mostBytes`. Fails, with
-/// the numbers, if one strand alone exceeds it, or if several chunks are needed and `wholeFor` names a
-/// feature that needs all strands in one. No strands make one empty chunk.
+/// Cuts strands, in device order, into the fewest chunks such that no buffer exceeds `mostBytes`. Fails, with
+/// the numbers, if a single strand exceeds it, or if several chunks are needed and `wholeFor` names a feature
+/// that needs all strands in one. Without strands there is one empty chunk.
 Result<std::vector<GroomChunk>> cutGroom(std::span<const std::uint32_t> particleCounts,
                                          const GroomRecords& records, std::uint64_t mostBytes,
                                          const std::string& wholeFor = "");

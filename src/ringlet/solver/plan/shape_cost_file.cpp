@@ -17,7 +17,7 @@ namespace ringlet {
 namespace {
 
 constexpr const char* kWhat = "measured strand shapes";
-constexpr std::int64_t kMostLanes = 128;  // on any device; no subgroup is wider
+constexpr std::int64_t kMostLanes = 128;  // of any device; no subgroup is wider
 
 Error inFile(const std::string& name, const toml::node& node, const std::string& message) {
   return Error{fmt::format("{}: line {}: {}", name, lineOf(node), message)};
@@ -108,7 +108,7 @@ Status writeShapeCosts(const std::filesystem::path& path, const std::vector<Devi
       "# Device time of strand shapes, hair alone: of a step of one strand, of the serial form of one\n"
       "# particle [ns]. `ringlet tune` writes this file; it may be deleted.\n";
   for (const DeviceCosts& device : devices) text += textOf(device);
-  std::error_code ignored;  // the write reports it
+  std::error_code ignored;  // the write below reports it
   std::filesystem::create_directories(path.parent_path(), ignored);
   return writeWholeFile(path, std::as_bytes(std::span<const char>(text)));
 }

@@ -25,15 +25,15 @@ struct DeviceCosts {
   std::string device, driver;  // ComputeDevice::name, driver
   std::string kernels;         // strandKernelHash
   std::vector<ShapeCost> costs;
-  std::uint32_t subgroupSize = 0;  // at which it was measured; 0: the device's default
+  std::uint32_t subgroupSize = 0;  // with which it was measured; 0: the device's default
 
   bool isOf(const DeviceCosts& other) const {
     return device == other.device && driver == other.driver && kernels == other.kernels;
   }
 };
 
-/// Errors: as for readWholeFile; and, with the line, invalid TOML, more than 1 MiB, a value that is missing
-/// or out of range, as `subgroup` is in files of older versions. Unknown keys are ignored.
+/// Errors: as for readWholeFile; and, with the line, invalid TOML, more than 1 MiB, and values that are
+/// missing or out of range (files of older versions lack `subgroup`). Unknown keys are ignored.
 Result<std::vector<DeviceCosts>> readShapeCosts(const std::filesystem::path& path);
 
 /// Replaces the file as a whole and creates its folder. Errors: as for writeWholeFile.

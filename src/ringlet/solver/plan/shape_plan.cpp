@@ -17,39 +17,40 @@ namespace {
 // included, and the join of the lanes (shaders/scan/star_join.glsl). Up to four lanes, or four groups of
 // lanes, are joined in rounds, one fewer than there are; a group of lanes is joined by doublings.
 struct WorkModel {
-  double particle;   // of one of several lanes
-  double ofTwo;      // of one of two lanes
-  double alone;      // of a single lane, which computes nothing twice
-  double round;      // of the join
-  double doubling;   // of the join
-  double longRun;    // additional cost of a particle per particle of the run above four
-  double longerRun;  // additional cost of that per doubling, whose registers the run lacks
-  double inMemory;   // of a single lane whose run is in memory
+  double particle;   // a particle, with three or more lanes
+  double ofTwo;      // a particle, with two lanes
+  double alone;      // a particle, with a single lane, which computes nothing twice
+  double round;      // a round of the join
+  double doubling;   // a doubling of the join
+  double longRun;    // relative extra cost of a particle, for each particle of the run above four
+  double longerRun;  // extra longRun per doubling, whose registers the run lacks
+  double inMemory;   // a particle, with a single lane and its run in memory
 };
 struct CostModel {
   WorkModel hairAlone, plain, bodies;
-  double perKernel, perRun;  // per step, of another kernel and of each particle of its run: see below
+  double perKernel, perRun;  // a kernel, and each particle of its run, spread over steps: see below
 };
 
 // CPU devices: fitted to what `ringlet tune` measures on lavapipe 22.3 (two quiet cores, 16 to 128
-// particles), within a fifth of each. A long run costs it nothing. Among bodies fitted to a head on a mesh,
-// 16 to 128 particles, within a tenth. There a join is dear, as lavapipe goes once through the code for
-// contacts whether or not a lane has any, and the fewer strands a subgroup has, the more often.
+// particles), within a fifth of each value. A long run has no extra cost there. With bodies fitted to a head
+// on a mesh, 16 to 128 particles, within a tenth. With bodies a join is slow: lavapipe runs the code for body
+// contacts once whether or not a lane has any, and the fewer strands a subgroup has, the more often.
 //
 // GPUs: not measured. Fitted to what RADV 25 compiles for navi21 in subgroups of 32
 // (scripts/count_instructions.sh), within a fifth for hair alone up to runs of 8. One vector instruction of
-// one lane counts as 1.25e-3 ns, as on an integrated GPU; only ratios matter, and what a kernel takes to
-// prepare. A spilled dword counts as 15 instructions: at 1.5 TB/s, assumed for the last cache of a large GPU,
-// it takes the time of 30, and half of that is assumed to hide behind other subgroups' work. Where it costs
-// more than 9, runs of 4 are best for 32 particles and more: runs of 8 take a quarter to a third fewer
-// instructions, but spill 160 to 450 dwords a lane and step. Runs of 16 spill 600 to 2,600; the model puts
-// them too low, but only strands that nothing shorter holds get them.
+// one lane counts as 1.25e-3 ns, as on an integrated GPU; only ratios matter, also to the time a kernel takes
+// to prepare. A spilled dword counts as 15 instructions: at 1.5 TB/s, assumed for the last cache of a large
+// GPU, it takes the time of 30, and half of that is assumed to be hidden by the work of other subgroups. If
+// it costs more than 9, runs of 4 are best for 32 particles and more: runs of 8 take a quarter to a third
+// fewer instructions, but spill 160 to 450 dwords a lane and step. Runs of 16 spill 600 to 2,600; the model
+// underestimates them, but only strands that no shorter run can hold get them.
 //
-// A kernel is prepared at every start: on lavapipe 30 ms for each particle of its run and 50 ms besides,
-// three times that the first time. Over 10,000 steps, 50 s of animation, that is 3 and 5 microseconds a step:
-// a few hundred strands get a kernel that is soon ready, more strands one that is fast. RADV takes some 0.1 s
-// for each particle of a run the first time, and then reads its cache; a third of the first time is counted,
-// which gives the same numbers. Intel's driver takes up to ten times as long the first time.
+// A kernel is prepared at every start: on lavapipe 30 ms for each particle of its run and 50 ms in addition,
+// three times as long the first time. Over 10,000 steps, 50 s of animation, that is 3 and 5 microseconds a
+// step: for a few hundred strands a kernel that is ready soon is best, for more strands one that is fast.
+// RADV takes some 0.1 s for each particle of a run the first time, and then reads its cache; a third of the
+// first time is counted, which gives the same numbers. Intel's driver takes up to ten times as long the first
+// time.
 //
 // In the order of WorkModel: particle, ofTwo, alone, round, doubling, longRun, longerRun, inMemory.
 constexpr CostModel kCpu{.hairAlone = {10.5, 8.2, 7.3, 2.7, 4, 0, 0, 45},
@@ -63,8 +64,8 @@ constexpr CostModel kGpu{.hairAlone = {0.5, 0.38, 0.36, 0.26, 0.62, 0.15, 0.12, 
                          .perKernel = 5'000,
                          .perRun = 3'000};
 
-// Longer runs are even faster on a CPU device, but lavapipe compiles a kernel of 64 particles per lane in 5
-// s. They are used only where they are asked for or were measured.
+// On a CPU device longer runs are even faster, but lavapipe compiles a kernel of 64 particles per lane in 5
+// s. They are used only if they are asked for or were measured.
 constexpr std::uint32_t kLongestUnaskedRun = 32;
 
 constexpr double kLastResort = 1e6;  // factor that makes a shape costlier than any other
@@ -81,15 +82,15 @@ double modelCost(const StrandShape& shape, const CostModel& model, StrandWork wo
   const std::uint32_t rounds = std::min(shape.lanes, 4u) - 1;
   const double longRun = of.longRun + doublings * of.longerRun;
   const double inRegisters = shape.lanes == 1 ? of.alone : shape.lanes == 2 ? of.ofTwo : of.particle;
-  // The additional cost of several lanes is the same in memory.
+  // In memory, several lanes cost more than one by the same factor as in registers.
   const double particle = shape.inMemory
                               ? of.inMemory * (inRegisters / of.alone)
                               : inRegisters * (1 + longRun * (shape.particlesPerLane - kShortestRun));
   return shape.lanes * (shape.particlesPerLane * particle + rounds * of.round + doublings * of.doubling);
 }
 
-// Cost of a kernel per step. lavapipe clears a run in memory particle by particle; compiling that takes as
-// long as compiling code.
+// Cost of preparing a kernel, per step. lavapipe clears a run in memory particle by particle, and compiling
+// that takes as long as compiling any other code.
 double preparingCost(const StrandShape& shape, const CostModel& model) {
   return model.perKernel + model.perRun * shape.particlesPerLane;
 }
@@ -114,7 +115,8 @@ std::vector<ShapeCost> registerCandidates(const DeviceLimits& limits, const Kern
   return costs;
 }
 
-// Shapes with runs in memory: enough that little of a run is idle, and no more kernels than necessary.
+// Run lengths in memory: enough of them that few particles of a run are idle, and no more kernels than
+// necessary.
 std::vector<std::uint32_t> runsInMemory(const DeviceLimits& limits, const KernelChoice& choice) {
   if (choice.particlesPerLane > 0) return {static_cast<std::uint32_t>(choice.particlesPerLane)};
   std::vector<std::uint32_t> runs;
@@ -128,8 +130,9 @@ bool hasMeasuredSerial(const KernelChoice& choice, StrandWork work) {
          std::ranges::find(choice.measured, kAnySerialShape, &ShapeCost::shape) != choice.measured.end();
 }
 
-// By default they have as many lanes as a subgroup: their runs are short and compile quickly. A single lane
-// is a little faster, but a GPU's private memory cannot hold its run.
+// Whether shapes in memory may have this number of lanes. By default it is that of a subgroup: runs are then
+// short and compile quickly. A single lane is a little faster, but a GPU's private memory cannot hold its
+// run.
 bool isOffered(std::uint32_t lanes, const DeviceLimits& limits, const KernelChoice& choice) {
   if (lanes > 1 && !limits.hasSubgroupShuffle) return false;
   if (choice.form == KernelChoice::Form::serial) return lanes == 1;
@@ -154,7 +157,7 @@ std::vector<ShapeCost> memoryCandidates(const DeviceLimits& limits, const Kernel
   return costs;
 }
 
-// The candidates, as asked for, by rising capacity.
+// The shapes that the choice allows, by rising capacity.
 std::vector<ShapeCost> candidates(const DeviceLimits& limits, const KernelChoice& choice, StrandWork work) {
   using Form = KernelChoice::Form;
   std::vector<ShapeCost> costs;
@@ -174,15 +177,15 @@ std::vector<ShapeCost> candidates(const DeviceLimits& limits, const KernelChoice
   return costs;
 }
 
-// The cheapest way to cut the strands at the candidates' capacities, by dynamic programming from the shortest
-// strands on. best[j]: up to the capacity of candidate j, which is the last in use.
+// The cheapest way to cut the strands at the capacities of candidates, by dynamic programming from the
+// shortest strands on. best[j]: for strands up to the capacity of candidate j, which is the last one used.
 struct Cut {
   double cost = std::numeric_limits<double>::infinity();
   std::size_t end = 0;         // number of strands covered
-  std::ptrdiff_t before = -1;  // the candidate in use for shorter strands
+  std::ptrdiff_t before = -1;  // the candidate used for the next shorter strands
 };
 
-// Cost of this number of strands in one shape, per step. Idle lanes of a subgroup cost as much as others.
+// Cost of this number of strands in one shape, per step. Idle lanes of a subgroup cost as much as busy ones.
 double rangeCost(const ShapeCost& cost, std::size_t strands, const DeviceLimits& limits) {
   const std::size_t each = limits.subgroupSize / cost.shape.lanes;
   RINGLET_ASSERT(each > 0, "more lanes than a subgroup has");
@@ -225,7 +228,7 @@ std::vector<StrandRange> cheapestRanges(std::span<const std::uint32_t> counts,
   return ranges;
 }
 
-// The error of a choice that the device does not have.
+// Fails if the device does not have what the choice asks for.
 Status checkChoice(const DeviceLimits& limits, const KernelChoice& choice, StrandWork work) {
   const int run = choice.particlesPerLane;
   const bool isInMemory =
@@ -246,7 +249,7 @@ Status checkChoice(const DeviceLimits& limits, const KernelChoice& choice, Stran
   return {};
 }
 
-// The capacity of the widest shape.
+// The error for a strand longer than the capacity of the widest shape.
 Error isTooLong(std::uint32_t particleCount, const StrandShape& widest) {
   return Error{fmt::format(
       "a strand of {} particles does not fit this device: {} {} of {} in memory hold {}; cut the strand into "
@@ -287,8 +290,9 @@ StrandWork strandWork(const Settings& settings, const Material& material, Contac
   return kinds.volume ? StrandWork::volume : StrandWork::hairAlone;
 }
 
-// 24, so that 128 particles are 8 runs of 16 and not half as many of 32, which are dearer to make; but what
-// few lanes save is worth it, and beyond the most lanes there are only runs in memory, 4 times slower.
+// 24, so that 128 particles are 8 runs of 16 and not half as many of 32, which take longer to compile. One or
+// two lanes save enough to be worth long runs; and strands beyond the capacity of the widest shape would have
+// runs in memory, 4 times slower.
 std::uint32_t longestRun(const DeviceLimits& limits, std::uint32_t lanes, StrandWork work) {
   if (!limits.isCpu) return 16;
   const bool isFew = isFromEnds(work) && lanes <= 2;

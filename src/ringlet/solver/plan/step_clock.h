@@ -1,4 +1,4 @@
-// StepClock: the steps that a simulation has done, and its time, while the length of a step may change.
+// StepClock: the number of steps of a simulation and its time. The length of a step may change.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,14 @@ namespace ringlet {
 
 struct StepClock {
   std::uint64_t steps = 0;        // since the simulation began
-  std::uint64_t stepsBefore = 0;  // steps and seconds before the present step length
+  std::uint64_t stepsBefore = 0;  // steps and seconds when the present step length began
   double secondsBefore = 0;
 
-  /// Since the simulation began, with steps of this length now.
+  /// Seconds since the simulation began, if steps now have this length.
   double seconds(double stepSeconds) const {
     return secondsBefore + static_cast<double>(steps - stepsBefore) * stepSeconds;
   }
-  /// Steps of this length end now.
+  /// Ends steps of this length; later ones have another.
   void endLength(double stepSeconds) {
     secondsBefore = seconds(stepSeconds);
     stepsBefore = steps;

@@ -24,8 +24,8 @@ struct WidthTime {
   std::uint32_t particleCount = 0, subgroupSize = 0;
   double nanoseconds = 0;
 };
-/// The width at which the best shapes of all lengths are fastest in total, among the widths at which most
-/// lengths were timed; the first of equal ones. 0 if there is none.
+/// The width at which the best shapes of all lengths are fastest in total. Only widths at which the most
+/// lengths were timed are compared; of equal ones the first wins. 0 if there is none.
 std::uint32_t fastestSubgroupSize(std::span<const WidthTime> times);
 
 }  // namespace ringlet

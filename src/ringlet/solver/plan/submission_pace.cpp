@@ -9,7 +9,7 @@
 namespace ringlet {
 namespace {
 
-// Limit of a dispatch while no time is known: it is short even on a slow device with costly settings.
+// Limit of a dispatch while no time is known: short even on a slow device with costly settings.
 constexpr std::uint64_t kFirstParticleSteps = 1 << 17;
 // Changes of work below this share of a submission do not matter.
 constexpr double kNegligibleShare = 1.0 / 64;

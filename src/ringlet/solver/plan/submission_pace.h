@@ -1,5 +1,5 @@
-// SubmissionPace: cuts frames into submissions. A desktop considers a device hung that works on one
-// submission for seconds, and does not draw meanwhile. The duration of work is known from the last frame.
+// SubmissionPace: cuts frames into submissions. A desktop takes a device for hung if one submission runs for
+// seconds, and does not draw meanwhile. How long work takes is estimated from the last frame.
 #pragma once
 
 #include <cstdint>
@@ -31,9 +31,9 @@ class SubmissionPace {
   /// Begins a stage, in a new submission if the open one would become too long.
   void beginStage(gpu::CommandList& list, const std::string& name);
 
-  /// Takes the times of a recording that has run: its stages [ms], and the particles times steps of those
-  /// named kStrandStage. Returns whether recordings must be made again: no time was known when they were
-  /// made, or a stage takes twice as long as then.
+  /// Learns from a recording that has run: its stages [ms], and the particles times steps of those named
+  /// kStrandStage. Returns whether recordings must be made again: no time was known when they were made, or a
+  /// stage takes twice as long as it did then.
   bool learn(std::span<const std::pair<std::string, double>> stageMilliseconds, double particleSteps);
 
  private:
@@ -41,7 +41,7 @@ class SubmissionPace {
   double secondsOf(const std::string& stage) const;
 
   double target_;  // planned duration of a submission, half its limit [s]; 0: no limit
-  // The times that the present recordings were made with. Infinite: unknown; then each piece of work is a
+  // The times with which the present recordings were made. Infinite: unknown; then each piece of work is a
   // submission.
   double strandRate_ = std::numeric_limits<double>::infinity();  // [s] per particle and step
   std::map<std::string, double> stageSeconds_;                   // longest of each other stage

@@ -11,7 +11,7 @@ namespace {
 using gpu::Buffer;
 using gpu::BufferKind;
 
-// Of all strands, in device order, those of a chunk.
+// Uploads the strands of a chunk; `all`: of all chunks, in device order.
 Status uploadStrands(Buffer& strands, std::span<const layout::StrandRest> all, const GroomChunk& part) {
   constexpr std::size_t kPieceStrands = 1 << 16;  // 7 MiB
   std::vector<layout::StrandRest> piece;
@@ -36,7 +36,8 @@ Result<std::shared_ptr<Buffer>> createStrands(gpu::Device& device, std::span<con
   return std::make_shared<Buffer>(std::move(*strands));
 }
 
-// `ofPlace`: what moves, of a head that has a place; which gives it away.
+// `ofPlace`: if not null, the buffers of a head that shares a row with others; those that change are moved
+// from it.
 Result<DeviceChunk> createChunk(gpu::Device& device, const ConstantChunk& constants,
                                 const GroomRecords& records, HeadBuffers* ofPlace) {
   const GroomChunk& part = constants.part;

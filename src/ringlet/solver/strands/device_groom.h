@@ -1,6 +1,6 @@
-// DeviceGroom: the buffers of one groom on one device, chunk by chunk (groom_chunks.h), and the ways in and
-// out of them. Constant and changing data never share a buffer; all upload at creation and in setState, all
-// download here, in pieces, so that the host never holds a second copy of what it asked for.
+// DeviceGroom: the buffers of one groom on one device, chunk by chunk (groom_chunks.h), and how to write and
+// read them. Constant and changing data never share a buffer. All uploads at creation and in setState, and
+// all downloads here are done in pieces, so that the host never holds a second copy of the data.
 #pragma once
 
 #include <algorithm>
@@ -24,26 +24,26 @@
 
 namespace ringlet {
 
-/// What does not change of some of the strands; their firstParticle counts within the chunk. One for all
-/// heads with this hair.
+/// The constants of a chunk of strands; their firstParticle counts within the chunk. All heads with this hair
+/// share them.
 struct ConstantChunk {
   GroomChunk part;
   std::shared_ptr<gpu::Buffer> particles, strands;
-  std::shared_ptr<const gpu::Buffer> framePlaces{};  // none on a processor (frame_readback.h)
+  std::shared_ptr<const gpu::Buffer> framePlaces{};  // none on a CPU device (frame_readback.h)
 
-  /// Fails when the device lacks memory.
-  /// `strands`, `particles`, `factors`: all of the groom, in device order; no factors, or of each particle.
+  /// `strands`, `particles`, `factors`: of the whole groom, in device order; factors: one per particle, or
+  /// none. Fails when the device lacks memory.
   static Result<ConstantChunk> create(gpu::Device& device, std::span<const layout::StrandRest> strands,
                                       std::span<const layout::ParticleRest> particles,
                                       std::span<const EdgeFactors> factors, const GroomChunk& part);
-  /// Others in their place, while no kernel reads them.
+  /// Replaces the constants. No kernel may be reading them.
   Status upload(std::span<const layout::StrandRest> all, std::span<const layout::ParticleRest> allParticles);
 };
 
-/// The particles of all chunks, from the device.
+/// Downloads the particles of all chunks.
 Result<std::vector<layout::ParticleRest>> particlesOf(std::span<const ConstantChunk> chunks);
 
-/// What kernels see of some of the strands of one head.
+/// The buffers that kernels use for a chunk of strands of one head.
 struct DeviceChunk {
   GroomChunk part;
   std::shared_ptr<const gpu::Buffer> particles, strands, framePlaces;
@@ -54,10 +54,10 @@ struct DeviceChunk {
 /// The largest buffer that a kernel may bind [bytes].
 std::uint64_t mostBufferBytes(const gpu::Device& device, const KernelChoice& choice);
 
-/// The chunks a device wants a groom in: as large as storage allows, and as texels do where it sees as many
-/// as the smallest storage buffers hold, as kernels read those faster. With contacts a strand may meet any
-/// other: all are in one. Fails, with the numbers, as cutGroom does and where the device has too little
-/// memory left.
+/// The chunks for a groom on this device: as large as storage buffers allow; or, if texel buffers may be at
+/// least as large as the smallest limit of storage buffers, as large as these allow, since kernels read
+/// texels faster. With contacts all strands are in one chunk, since any may touch any other. Fails, with the
+/// numbers, as cutGroom does and where the device has too little memory left.
 Result<std::vector<GroomChunk>> cutForDevice(const gpu::Device& device,
                                              std::span<const std::uint32_t> particleCounts,
                                              const GroomRecords& records, const Settings& settings,
@@ -66,50 +66,53 @@ Result<std::vector<GroomChunk>> cutForDevice(const gpu::Device& device,
 struct DeviceGroom {
   std::vector<DeviceChunk> chunks;
   gpu::Buffer contactControl;        // empty without contacts
-  gpu::Buffer controlRead;           // as the last frame left it, in the host's memory
-  bool hasOwnStrands = false;        // which no other head sees
-  std::vector<ConstantChunk> own{};  // in place of what heads share, of all chunks; none: that
-  std::optional<HeadPlace> place{};  // among other heads, of which all that changes is a part
+  gpu::Buffer controlRead;           // the control block as the last frame left it, in host memory
+  bool hasOwnStrands = false;        // not shared with other heads
+  std::vector<ConstantChunk> own{};  // constants of this head, per chunk, in place of the shared ones; empty:
+                                     // the shared ones are used
+  std::optional<HeadPlace> place{};  // if its changing data is part of a row of heads
 
-  /// `shifted`: all strands in device order, of a head whose roots move beside it; else none. `places`: among
-  /// which to take one, or null. Fails when the device lacks memory.
+  /// `shifted`: all strands in device order, for a head with shifted roots; else empty. `places`: where to
+  /// take a place from, or null. Fails when the device lacks memory.
   static Result<DeviceGroom> create(gpu::Device& device, std::span<const ConstantChunk> constants,
                                     std::span<const layout::StrandRest> shifted, const GroomRecords& records,
                                     HeadPlaces* places);
 
-  /// Constants of this head's own in place of the others; kernels must be bound to them anew. Fails when the
-  /// device lacks memory.
+  /// Gives this head constants of its own; kernels must be bound to them anew. Fails when the device lacks
+  /// memory.
   Status setConstants(gpu::Device& device, std::span<const layout::StrandRest> strands,
                       std::span<const layout::ParticleRest> particles, std::span<const EdgeFactors> factors);
 
-  /// Whether all that does not change is what other heads see too.
+  /// Whether all constants are shared with other heads.
   bool sharesConstants() const { return own.empty() && !hasOwnStrands; }
 
-  /// A chunk's buffers, as strand kernels bind them.
+  /// Bindings of the strand kernels for a chunk.
   gpu::BufferTable bufferTable(std::size_t chunk) const;
   /// The largest buffer that kernels read as texels [bytes].
   std::uint64_t largestTexels() const;
   std::uint64_t particleBytes() const;  // of all buffers with a record a particle
   std::uint64_t strandBytes() const;
-  /// Of these, what other heads see too.
+  /// The part of both that is shared with other heads.
   std::uint64_t sharedBytes() const;
 
-  /// With contacts a frame ends with it, after a barrier: what its control block says comes to the host.
+  /// With contacts: recorded at the end of a frame, after a barrier. Copies the control block to the host.
   void recordControl(gpu::CommandList& list) const;
-  /// What the last frame that has ended left in it.
+  /// The control block of the last frame that has ended.
   const layout::ContactControl& control() const;
 
   /// In device order.
   Result<std::vector<layout::StrandReport>> downloadReports() const;
 
   using Field = gpu::Buffer DeviceChunk::*;
-  /// Fills a buffer of vec4s a particle: valueAt(i) of particle i, device order, asked for in that order.
+  /// Fills a buffer of one vec4 per particle with valueAt(i), which is called for each particle i in device
+  /// order.
   template <class ValueAt>
   Status uploadEach(Field field, ValueAt&& valueAt);
-  /// Each value to change(value).
+  /// Replaces each value by change(value).
   template <class Change>
   Status changeEach(Field field, Change&& change);
-  /// take(i, value) for each particle, in device order; from the `row`th row of all particles on (taps).
+  /// Calls take(i, value) for each particle, in device order; row: reads the `row`th row of all particles
+  /// (taps).
   template <class Take>
   Status downloadEach(Field field, Take&& take, std::uint64_t row = 0) const;
 };
@@ -117,7 +120,7 @@ struct DeviceGroom {
 /// The groom's index of each particle, in device order.
 std::vector<std::uint32_t> groomIndices(const RestState& rest);
 
-/// The same one by one, asked for in device order: which strand, and where in the groom, particle i is.
+/// The same one by one, in device order: the strand of particle i, and its index in the groom.
 class GroomPlaces {
  public:
   explicit GroomPlaces(const RestState& rest) : rest_(&rest) {}
@@ -136,7 +139,7 @@ class GroomPlaces {
   std::size_t strand_ = 0;
 };
 
-// What crosses at once: 16 MiB of vec4s.
+// Records per transfer: 16 MiB of vec4s.
 inline constexpr std::size_t kPieceRecords = 1 << 20;
 
 template <class ValueAt>

@@ -27,7 +27,7 @@ gpu::KernelDescription describe() {
   return description;
 }
 
-// How many places a buffer has room for, such that the next buffer may begin after them.
+// The number of positions that fit into mostBytes, such that the next part can begin at a valid offset.
 std::uint64_t placesOfPart(std::uint64_t mostBytes, std::uint64_t alignment) {
   const std::uint64_t unit = std::lcm(kPlaceBytes, alignment);
   return std::max<std::uint64_t>(mostBytes / unit, 1) * unit / kPlaceBytes;
@@ -67,7 +67,7 @@ Result<FrameReadback> FrameReadback::create(gpu::Device& device, const DeviceGro
                                    "positions read back", gpu::BufferUse::inParts);
   if (!frame) return frame.error();
   FrameReadback self(std::move(*frame));
-  std::ranges::fill(self.positions(), Vec3f());  // places of rigid strands stay so
+  std::ranges::fill(self.positions(), Vec3f());  // places of rigid strands stay 0
   self.groom_ = &groom;
   Status made = device.properties().isCpu ? self.makeCopies(device, groom)
                                           : self.makePieces(device, groom, count, mostBufferBytes);

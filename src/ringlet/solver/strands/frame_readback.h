@@ -1,6 +1,6 @@
-// FrameReadback: brings the positions at a frame's end into the host's memory, in the order of the groom. On
-// a GPU a kernel writes them there; on a processor the host puts a copy of them into order, which costs it a
-// third of that.
+// FrameReadback: copies the positions at a frame's end to host memory, in groom order. On a GPU a kernel
+// writes them there; on a CPU device the host reorders a copy, in a third of the time that the kernel would
+// take.
 #pragma once
 
 #include <cstdint>
@@ -20,17 +20,17 @@
 
 namespace ringlet {
 
-/// Where the particles of a device stand in its frames: of all of a groom's strands as in the groom, which
-/// has gaps for those that are carried rigidly (solver/inputs/rigid_hair.h); of a part of them without gaps,
-/// in device order.
+/// The places of a device's particles in its frames. If the device steps all strands, a frame has the order
+/// of the groom, with gaps for rigid strands (solver/inputs/rigid_hair.h); if it steps a part of them, device
+/// order without gaps.
 struct FramePlaces {
-  // Of each particle, device order; layout::kNoPlace for those of the halo.
+  // By particle, device order; layout::kNoPlace for those of the halo.
   std::vector<std::uint32_t> places{};
-  std::uint32_t count = 0;  // places of a frame
-  bool areOfGroom = true;   // else of a part
+  std::uint32_t count = 0;  // number of places of a frame
+  bool areOfGroom = true;   // false: of a part
 
   static FramePlaces of(const RestState& rest);
-  /// Those of a chunk's particles. Fails when the device lacks memory.
+  /// The places of a chunk's particles, in device memory. Fails when the device lacks memory.
   Result<std::shared_ptr<const gpu::Buffer>> onDevice(gpu::Device& device, const GroomChunk& chunk) const;
 };
 
@@ -41,18 +41,18 @@ class FrameReadback {
   static Result<FrameReadback> create(gpu::Device& device, const DeviceGroom& groom, std::uint32_t count,
                                       std::uint64_t mostBufferBytes);
 
-  /// Records it. The caller records the barrier before.
+  /// Records the copy. The caller records the barrier before it.
   void record(gpu::CommandList& list) const;
-  /// Once the device has done what was recorded.
+  /// Completes the copy; call it once the device has done what was recorded.
   void arrive(const FramePlaces& places);
-  /// Does it now, after a frame that is not recorded.
+  /// Copies now, after a frame that was not recorded.
   Status download(const FramePlaces& places);
-  /// The positions, by place. Places of no particle hold what was last written there.
+  /// The positions, by place. Places without a particle hold what was last written there.
   std::span<Vec3f> positions() const;
   std::uint64_t bytes() const;
 
  private:
-  // What a dispatch writes: places [begin, end), of a chunk's particles.
+  // The work of one dispatch: a chunk's particles with places in [begin, end).
   struct Piece {
     gpu::Bindings bindings;
     std::uint32_t count = 0, begin = 0, end = 0;
@@ -65,10 +65,10 @@ class FrameReadback {
 
   std::shared_ptr<const gpu::Kernel> kernel_;
   gpu::Buffer frame_;
-  std::vector<gpu::Buffer> parts_;  // of it, where it is larger than a kernel may bind
+  std::vector<gpu::Buffer> parts_;  // parts of frame_, if it is larger than a kernel may bind
   std::vector<Piece> pieces_;
   std::uint32_t mostGroups_ = 1;
-  std::vector<gpu::Buffer> copies_;  // on a processor: of each chunk's positions, in device order
+  std::vector<gpu::Buffer> copies_;  // on a CPU device: each chunk's positions, in device order
   const DeviceGroom* groom_ = nullptr;
 };
 

@@ -1,4 +1,4 @@
-// FrameSlot: a place for a frame in flight: its recorded commands and the host memory for its positions.
+// FrameSlot: the commands of a frame in flight and the host memory for its positions.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +23,9 @@ struct FrameSlot {
   gpu::Recorder recorder;      // destroyed first: it waits for the commands that write the others
   enum class Recorded { nothing, frame, sleep };
   Recorded recorded = Recorded::nothing;  // sleep: a frame without steps
-  std::uint32_t untilSort = 0;            // VolumeStage's, in what is recorded
-  double particleSteps = 0;               // of strands, in what is recorded
-  bool isHosts = false;  // the frame is in a host's commands (hair_frames.h), which tell when it is over
+  std::uint32_t untilSort = 0;            // VolumeStage::untilSort of the recording
+  double particleSteps = 0;               // of strands, in the recording
+  bool isHosts = false;  // the frame is in a host's commands (hair_frames.h); the host says when it is over
 
   /// Fails when the device lacks memory.
   static Result<FrameSlot> create(gpu::Device& device, const DeviceGroom& groom, const FramePlaces& places,
@@ -33,20 +33,20 @@ struct FrameSlot {
 
   /// Records the read-back of positions at the frame's end, if they are read back.
   void recordPositions(gpu::CommandList& list) const;
-  /// Once the device has done the frame.
+  /// Call it once the device has done the frame.
   void arrive(const FramePlaces& places) {
     if (readback) readback->arrive(places);
   }
   /// Reads positions back now, after a frame that is not recorded.
   Status downloadPositions(const FramePlaces& places);
-  /// The positions read back, by place, without those of rigid strands; empty if they are not read back.
+  /// The positions read back, by place, without rigid strands; empty if positions are not read back.
   std::span<const Vec3f> positions() const {
     return readback ? std::span<const Vec3f>(readback->positions()) : std::span<const Vec3f>();
   }
-  /// Copies those of the strands here to where they are in the groom.
+  /// Copies the positions of the strands here to their places in groom order.
   void copyPositions(const RestState& rest, const FramePlaces& places, const RigidHair& rigidHair,
                      std::span<Vec3f> inGroomOrder) const;
-  /// All of them in place, if they are of a groom.
+  /// All positions in groom order, without a copy; only if the device steps the whole groom.
   std::span<const Vec3f> viewPositions(const RigidHair& rigidHair) const;
   std::uint64_t bytes() const { return readback ? readback->bytes() : 0; }
 };

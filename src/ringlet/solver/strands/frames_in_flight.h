@@ -11,23 +11,24 @@
 
 namespace ringlet {
 
-/// Frame n has slot n % kFramesInFlight: submitted to the device, finished by it, waited for by the caller.
+/// Frame n has slot n % kFramesInFlight. Frames are submitted to the device, finished by it, then waited for
+/// by the caller.
 struct FramesInFlight {
   std::uint64_t submitted = 0, finished = 0, waited = 0;
-  bool isReadBack = false;      // the last frame's positions are those on the device
-  std::optional<Error> lost{};  // after which the state is unknown
+  bool isReadBack = false;      // the positions read back last are those on the device
+  std::optional<Error> lost{};  // after this error the state is unknown
   std::vector<FrameSlot> slots{};
 
   std::size_t slotNumber(std::uint64_t frame) const { return frame % slots.size(); }
   FrameSlot& slotOf(std::uint64_t frame) { return slots[slotNumber(frame)]; }
   bool areAllWaitedFor() const { return waited == submitted; }
-  /// Positions come to the host's memory after every frame.
+  /// Whether positions are copied to host memory after every frame.
   bool readBack() const { return slots.front().readback.has_value(); }
-  /// Recordings are invalid.
+  /// Invalidates recordings.
   void forgetRecordings() {
     for (FrameSlot& slot : slots) slot.recorded = FrameSlot::Recorded::nothing;
   }
-  /// Read-back positions are invalid too.
+  /// Also invalidates positions that were read back.
   void forget() {
     isReadBack = false;
     forgetRecordings();

@@ -13,21 +13,22 @@
 
 namespace ringlet {
 
-/// This head and some behind it in its row, as a dispatch sees them.
+/// The buffers and bindings with which a dispatch steps this head and some that follow it in its row.
 struct BoundHeads {
   HeadBuffers buffers;
   std::vector<gpu::Bindings> bindings;  // one a range
 };
 
-/// In the shapes of these ranges.
+/// Kernels for these ranges.
 struct StrandKernels {
   const std::vector<StrandRange>* ranges = nullptr;
   std::vector<std::shared_ptr<const gpu::Kernel>> kernels{};  // one per shape
-  std::vector<std::size_t> kernelOf{};                        // of each range
+  std::vector<std::size_t> kernelOf{};                        // index into kernels, by range
   std::vector<gpu::Bindings> bindings{};                      // one per range
   bool areOfHeads = false;                                    // StrandKernelOptions::heads
   bool areFallen = false;                                     // StrandKernelOptions::falls
-  std::map<std::uint32_t, BoundHeads> ofHeads{};              // by how many; of one: bindings
+  std::map<std::uint32_t, BoundHeads> ofHeads{};              // by number of heads; for a single head
+                                                              // `bindings` are used
 
   const gpu::Bindings& bindingsOf(std::uint32_t range, std::uint32_t heads) const {
     return heads > 1 ? ofHeads.at(heads).bindings[range] : bindings[range];
@@ -37,8 +38,8 @@ struct StrandKernels {
 
 struct HairKernels {
   StrandKernels strands;
-  StrandKernels firstSolve;  // of the first solve of a step; none: the kernels above
-  StrandKernels fallen;      // of what was cut off
+  StrandKernels firstSolve;  // for the first solve of a step; none: `strands` are used
+  StrandKernels fallen;      // for fallen hair
 };
 
 }  // namespace ringlet

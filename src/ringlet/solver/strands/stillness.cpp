@@ -19,7 +19,7 @@ void Stillness::begin(bool isQuiet) {
 void Stillness::observe(std::span<const Vec3f> now, double farthest) {
   const auto isStill = [&](Vec3f a, Vec3f b) {
     const double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
-    return x * x + y * y + z * z <= farthest * farthest;  // NaN is not
+    return x * x + y * y + z * z <= farthest * farthest;  // false for NaN
   };
   const bool areStill = !now.empty() && std::ranges::equal(now, before_, isStill);
   const std::uint64_t since = stillSince_[observed_ % stillSince_.size()];

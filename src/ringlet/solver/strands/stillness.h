@@ -20,12 +20,12 @@ class Stillness {
 
   /// Begins the next frame; `isQuiet`: its inputs are the same as in the last frame.
   void begin(bool isQuiet);
-  /// Whether that frame needs no steps. Then no later frame does, until one is not quiet.
+  /// Whether that frame needs no steps. It stays true until a frame is not quiet.
   bool sleeps() const { return sleeps_; }
   /// Notes a change from outside: the next frame is not quiet.
   void wake() { quietSince_ = frame_ + 2; }
-  /// Ends the oldest frame that was begun, with its positions, or none if they are unknown.
-  /// farthest: the distance below which a particle counts as not moving [m].
+  /// Reports the positions at the end of the oldest frame that was begun and not reported; empty: they are
+  /// unknown. farthest: a particle that moved by less counts as not moving [m].
   void observe(std::span<const Vec3f> now, double farthest);
 
   void archive(Archive& archive);
@@ -36,7 +36,7 @@ class Stillness {
   std::uint64_t frame_ = 0;       // the last that was begun, counted from 1
   std::uint64_t observed_ = 0;    // the last that has ended
   std::uint64_t quietSince_ = 1;  // this frame and all since are quiet
-  // This frame and all since are still; by the number of the frame at whose end it was known.
+  // All frames since this one are still, as known at the end of a frame; indexed by that frame's number.
   std::array<std::uint64_t, kLag + 1> stillSince_{1, 1, 1};
   bool sleeps_ = false;
   std::vector<Vec3f> before_;  // positions at the end of the last frame

@@ -54,7 +54,8 @@ std::string strandKernelHash() {
 }
 
 Result<std::uint32_t> askedGroupSize(const DeviceLimits& limits, int asked) {
-  constexpr std::uint32_t kMostAnywhere = 128;  // maxComputeWorkGroupInvocations, the least allowed
+  constexpr std::uint32_t kMostAnywhere = 128;  // the smallest maxComputeWorkGroupInvocations that Vulkan
+                                                // allows
   const auto size = static_cast<std::uint32_t>(std::max(asked, 0));
   if (std::has_single_bit(size) && size >= limits.subgroupSize && size <= kMostAnywhere) return size;
   return Error{fmt::format(
@@ -114,7 +115,7 @@ Result<std::vector<std::shared_ptr<const gpu::Kernel>>> createStrandKernels(
     const auto make = [&create, &shape] { return create(shape); };
     try {
       others.push_back(std::async(policy, make));
-    } catch (const std::system_error&) {  // no thread to be had: this one makes it
+    } catch (const std::system_error&) {  // no thread is available: this one makes the kernel
       others.push_back(std::async(std::launch::deferred, make));
     }
   }

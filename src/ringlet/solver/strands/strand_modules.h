@@ -1,4 +1,4 @@
-// The embedded SPIR-V of the strand kernel: a module a form and part of what hair may need.
+// The embedded SPIR-V of the strand kernel: a module for each form and part.
 #pragma once
 
 #include <cstdint>
@@ -6,15 +6,17 @@
 
 namespace ringlet {
 
-/// How strands are stepped: runs in registers, runs in memory, or one lane a strand without subgroups.
+/// How strands are laid out: runs in registers, runs in memory, or one lane a strand without subgroup
+/// operations.
 enum class StrandForm { lanes, memory, serial };
-/// Hair by itself; in contact; among bodies, air, goals or fields too; by other integrators than jacobi; of
-/// one of many heads. Code that is only switched off a driver reads all the same, half a second a kernel on
-/// lavapipe, and its buffers stay bound. In memory and serial, surroundings has the contacts.
+/// Hair alone; with contacts; also with bodies, air, goals or fields; with other integrators than jacobi; one
+/// of many heads. A module of its own is needed because a driver also reads code that is only switched off,
+/// half a second a kernel on lavapipe, and its buffers stay bound. In memory and serial forms, surroundings
+/// includes contacts.
 enum class StrandPart { plain, contacts, surroundings, baselines, heads };
 
-/// `taps`: the module writes every intermediate. Empty where there is none: heads have no taps, and nothing
-/// has in a library that was built without RINGLET_BUILD_TAPS.
+/// `taps`: the module writes every intermediate. Empty where there is no such module: heads have no taps, and
+/// no part has any in a library built without RINGLET_BUILD_TAPS.
 std::span<const std::uint32_t> strandModule(StrandForm form, StrandPart part, bool taps);
 
 }  // namespace ringlet
