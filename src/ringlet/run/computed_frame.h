@@ -1,4 +1,4 @@
-// ComputedFrame: a frame of a run, as it comes from the hair.
+// ComputedFrame: a computed frame of a run.
 #pragma once
 
 #include <vector>
@@ -11,9 +11,9 @@ namespace ringlet {
 
 struct ComputedFrame {
   int number = 0;                // 1 for the first
-  std::vector<Vec3f> positions;  // as SceneHair::framePositions gives them
+  std::vector<Vec3f> positions;  // as SceneHair::framePositions returns them
   HeadPose head;
-  std::vector<BodyPose> bodies;  // at its end
+  std::vector<BodyPose> bodies;  // poses at the frame's end
 };
 
 }  // namespace ringlet

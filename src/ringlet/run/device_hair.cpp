@@ -42,7 +42,7 @@ class DeviceHair : public SceneHair {
     return {Diagnostics(simulation_).stageMilliseconds(), Diagnostics(simulation_).hostMilliseconds()};
   }
   std::vector<StageSpan> frameStages() const override { return Diagnostics(simulation_).frameStages(); }
-  // The validation layer's messages too, where it is on.
+  // Also contains the messages of the validation layer, if it is on.
   HairFacts facts() const override {
     HairFacts facts{.device = device_.name(),
                     .driver = device_.driver(),
@@ -65,7 +65,7 @@ class DeviceHair : public SceneHair {
   bool isTuned_;
   Simulation simulation_;
   bool isStepByStep_;
-  std::size_t messagesBefore_;  // of runs on this device before
+  std::size_t messagesBefore_;  // of earlier runs on this device
 };
 
 }  // namespace

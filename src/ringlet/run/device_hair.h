@@ -15,13 +15,13 @@ namespace ringlet {
 
 struct DeviceHairChoice {
   ComputeDevice device;
-  KernelChoice kernel{};                // with what the scene needs besides
-  std::vector<std::string> messages{};  // of the device, that facts() say before its own
+  KernelChoice kernel{};                // the scene's features are added
+  std::vector<std::string> messages{};  // about the device; facts() puts them before its own
 };
 
-/// The scene's hair where its first frame begins. Errors: those of Simulation::create.
+/// The scene's hair at the start of its first frame. Errors: those of Simulation::create.
 Result<Simulation> makeSimulation(const SceneHairInput& input, DeviceHairChoice choice);
-/// The same for a run.
+/// The same as the SceneHair of a run.
 Result<std::unique_ptr<SceneHair>> makeDeviceHair(const SceneHairInput& input, DeviceHairChoice choice);
 
 }  // namespace ringlet

@@ -12,14 +12,15 @@
 
 namespace ringlet {
 
-/// Of all of the input's hair. Errors: as buildWholeRest.
+/// The rest state of all of the input's hair. Errors: as buildWholeRest.
 Result<WholeRest> wholeRestOf(const SceneHairInput& input);
 
-/// A device each, at least one; one may be there twice. Errors: those of the hair; more devices than strands.
+/// One device for each part, at least one; a device may occur twice. Errors: those of the hair; more devices
+/// than strands.
 Result<std::unique_ptr<SceneHair>> makeDividedHair(const SceneHairInput& input,
                                                    std::vector<DeviceHairChoice> choices);
 
-/// The same with one kind of kernels. Without devices: on the one that ComputeDevice::open takes.
+/// The same with equal kernel options for all. Without devices: on the one that ComputeDevice::open chooses.
 HairMaker hairOn(std::vector<ComputeDevice> devices, const KernelChoice& kernel = {});
 
 }  // namespace ringlet

@@ -9,12 +9,13 @@
 namespace ringlet {
 namespace {
 
-// Frames that wait to be written: enough that a slow one stops nobody, few enough for memory.
+// Frames that may wait to be written: enough that a slow one delays nobody, few enough to save memory.
 constexpr std::size_t kRoom = 4;
 
-// From the solver's frame (metres, seen from the head's origin) to the file's.
+// Converts from the solver's coordinates (metres, relative to the head's origin) to the file's.
 std::vector<Vec3f> toFile(std::span<const Vec3f> positions, const HeadPose& head, double metresPerUnit) {
-  std::vector<Vec3f> points(positions.begin(), positions.end());  // in place: memory is what this costs
+  std::vector<Vec3f> points(positions.begin(), positions.end());  // converted in place, since memory is the
+                                                                  // main cost
   for (Vec3f& point : points) point = Vec3f((head.position + Vec3d(point)) / metresPerUnit);
   return points;
 }

@@ -1,5 +1,5 @@
-// FrameSink: what becomes of a frame once it is computed. The frame loop hands frames over; they are looked
-// at, turned into the file's points and written on a WriterThread, in order.
+// FrameSink: processes computed frames. The frame loop hands frames over; they are measured, converted to the
+// file's points and written on a WriterThread, in order.
 #pragma once
 
 #include <atomic>
@@ -18,41 +18,41 @@
 
 namespace ringlet {
 
-/// Who gets frames, each or none; all are called on the WriterThread.
+/// Optional receivers of a frame, called on the writer's thread.
 struct FrameReaders {
   BodyWatch* bodies = nullptr;
   /// `points`: in the groom's unit and order, finite.
   std::function<Status(const ComputedFrame&, std::span<const Vec3f> points)> observe;
   std::function<Status(int number, std::vector<Vec3f> points, const ComputedFrame& frame)> write;
-  /// Of the frames they need only the last; observe and write may get none before it.
+  /// They need only the last frame; observe and write may get none before it.
   bool needLastOnly = false;
 };
 
 class FrameSink {
  public:
-  /// `groom` must live as long.
+  /// `groom` must outlive this.
   FrameSink(const Groom& groom, FrameReaders readers);
 
-  /// Waits while too many frames are on their way. The failure of an earlier frame comes back here or from
-  /// finish; what was handed over after it is dropped.
+  /// Waits while too many frames are waiting. An error of an earlier frame is returned here or by finish;
+  /// frames handed over after it are dropped.
   Status hand(ComputedFrame frame);
-  /// Memory of a frame that is done with, for positions of the next; empty if there is none yet.
+  /// Memory of a processed frame, for the positions of the next; empty if there is none yet.
   std::vector<Vec3f> takeRoom();
   Status finish();
-  /// After the frames handed over so far, as one of them.
+  /// Runs a job after the frames handed over so far, in order with them.
   Status handJob(WriterThread::Job job) { return thread_.hand(std::move(job)); }
 
-  /// What is known of the frames so far, for a checkpoint: in a job, or before the first frame. Not their
-  /// positions: at least one frame follows.
+  /// Archives what is known of the frames so far, for a checkpoint. Call it in a job, or before the first
+  /// frame. Positions are not archived: at least one frame follows.
   void archive(Archive& archive);
 
-  /// Frames done so far, at any time.
+  /// Number of frames processed so far; may be called at any time.
   int frameCount() const { return frameCount_; }
 
   // After finish:
-  /// Most particles of a frame without a finite position.
+  /// The largest number of particles without a finite position in one frame.
   std::size_t mostReplaced() const { return mostReplaced_; }
-  /// None: there was no frame.
+  /// Empty if there was no frame.
   std::vector<Vec3f> takeLastPositions() { return std::move(last_.positions); }
   double millisecondsWatching() const { return watching_; }
   double millisecondsWriting() const { return writing_; }
@@ -66,11 +66,11 @@ class FrameSink {
   std::atomic<int> frameCount_ = 0;
   std::size_t mostReplaced_ = 0;
   ComputedFrame last_;
-  bool isShown_ = true;  // the last frame, to observe and write
+  bool isShown_ = true;  // whether the last frame was given to observe and write
   double watching_ = 0, writing_ = 0;
   std::mutex roomMutex_{};
   std::vector<Vec3f> room_{};
-  WriterThread thread_;  // goes first: it works on the rest
+  WriterThread thread_;  // destroyed first: it uses the other members
 };
 
 }  // namespace ringlet

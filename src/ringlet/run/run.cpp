@@ -33,7 +33,7 @@ double secondsBetween(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
 }
 
-// A failure in the middle of a run, with what it leaves.
+// A failure in the middle of a run, with a note on which frames are kept.
 Error afterFrames(int frameCount, const Error& cause, const RunOptions& options) {
   const std::vector<std::string> animations = animationsOf(options);
   if (frameCount == 0 || options.folder.empty() || animations.empty()) return cause;
@@ -42,7 +42,7 @@ Error afterFrames(int frameCount, const Error& cause, const RunOptions& options)
                cause.fault};
 }
 
-// What this run and one that goes on with it must have in common, but for the device.
+// Facts that must be equal in this run and in one that resumes it, except those of the device.
 std::vector<RunFact> factsOf(const LoadedScene& scene, const RunOptions& options) {
   std::vector<RunFact> facts = options.facts;
   const auto add = [&](const char* name, auto value) { facts.push_back({name, fmt::format("{}", value)}); };
@@ -61,7 +61,7 @@ std::vector<RunFact> factsOf(const LoadedScene& scene, const RunOptions& options
 
 }  // namespace
 
-// From the folder to the numbers, in the order of its functions.
+// A run, from opening its folder to its outcome; functions are in the order in which they are called.
 class Run::Work {
  public:
   Work(const LoadedScene& scene, RunOptions options, RunEvents events)
@@ -113,16 +113,17 @@ class Run::Work {
   std::optional<TraceFile> trace_;
   std::optional<RunWriters> writers_;
   std::optional<BodyWatch> bodyWatch_;
-  int frame_ = 0;                          // the next
-  std::optional<ComputedFrame> underWay_;  // its positions are still to come
+  int frame_ = 0;                          // index of the next frame
+  std::optional<ComputedFrame> underWay_;  // submitted; its positions have not been read back
 
   bool hasFirstFrame_ = false;
   const Clock::time_point start_ = Clock::now();
   Clock::time_point firstFrame_{}, lastFrame_{};
   HairTimes timesBefore_;
   double posesTime_ = 0, readbackTime_ = 0, waitedForWriter_ = 0;  // [ms]
-  std::optional<WriterThread> disk_;                               // waits for the disk
-  std::optional<FrameSink> sink_;                                  // goes first: it works on the rest
+  std::optional<WriterThread> disk_;                               // waits for checkpoints to reach the disk
+  std::optional<FrameSink> sink_;                                  // destroyed first: it uses the other
+                                                                   // members
 };
 
 Status Run::Work::open(const HairMaker& makeHair) {
@@ -141,7 +142,7 @@ Status Run::Work::openFolder() {
   return {};
 }
 
-// What can fail before the first step; and the steps before the first frame.
+// Everything that can fail before the first step, and the pre-roll.
 Status Run::Work::openHair(const HairMaker& makeHair) {
   const bool hasCheckpoints = folder_ && (options_.checkpointFrames > 0 || folder_->checkpoint());
   if (hasCheckpoints) {
@@ -218,7 +219,7 @@ Status Run::Work::makeSink() {
   return done > 0 ? restore() : Status{};
 }
 
-// The motion up to the first frame, so that hair begins it as it moves.
+// Steps the motion up to the first frame, so that hair is already moving when it begins.
 Status Run::Work::preRoll() {
   for (int number = frames_.first(); number < 0 && !isStopped(); ++number) {
     const auto frame = frames_.at(number);
@@ -244,7 +245,7 @@ Status Run::Work::restore() {
   return {};
 }
 
-// While a frame computes, the one before it is read back and those before that are written.
+// Submits a frame; meanwhile the frame before it is read back, and earlier ones are written.
 Result<bool> Run::Work::next() {
   if (frame_ == outcome_.resumedFrom) firstFrame_ = Clock::now();
   if (frame_ >= scene_.frameCount || isStopped()) return false;
@@ -257,7 +258,7 @@ Result<bool> Run::Work::next() {
     return frames_.at(frame_);
   }();
   if (!frame) {
-    (void)takeUnderWay();  // it may be whole
+    (void)takeUnderWay();  // the frame in flight may be complete
     return afterWritten(frame.error());
   }
   if (Status stepped = step(*frame); !stepped) return stepped.error();
@@ -270,7 +271,7 @@ Status Run::Work::step(const SceneFrame& frame) {
     if (Status taken = takeUnderWay(); !taken) return taken;
   }
   if (Status submitted = stepper_->submit(frame); !submitted) {
-    (void)takeUnderWay();  // it may be whole
+    (void)takeUnderWay();  // the frame in flight may be complete
     return afterWritten(submitted.error());
   }
   if (Status taken = takeUnderWay(); !taken) return taken;
@@ -318,8 +319,8 @@ Status Run::Work::takeUnderWay() {
   return sink_->hand(std::move(frame));
 }
 
-// A checkpoint after `frame` frames: the hair's state now; what is known of those frames joins it on the
-// sink's thread; and frames go on while the disk takes both.
+// Writes a checkpoint after `frame` frames: saves the hair's state now; adds what is known of those frames on
+// the sink's thread; and writes both to disk on a third thread while frames go on.
 Status Run::Work::saveAt(int frame) {
   if (Status taken = takeUnderWay(); !taken) return taken;
   Archive archive = Archive::writing();
@@ -382,7 +383,7 @@ Status Run::Work::tellReports() {
   return {};
 }
 
-// Per frame of this run.
+// Times per frame of this run, without frames that an earlier run had done.
 void Run::Work::tellTimes() {
   HairTimes times = hair_->times();
   std::map<std::string, double>& computing = times.stages;

@@ -1,4 +1,4 @@
-// Run: a scene's frames, stepped one after the other, and the files that come of them.
+// Run: steps a scene's frames one after another, and writes the resulting files.
 //
 //   auto outcome = runScene(scene, options, hairOn({device}));
 #pragma once
@@ -18,43 +18,44 @@
 
 namespace ringlet {
 
-/// Sees every frame, in order, on a thread of its own, the last before Run::finish returns: points in the
-/// groom's unit, in its order, finite; and where the head is. RunOptions::observesLast: it may miss all but
-/// the last.
+/// Is called for every frame, in order, on a thread of its own, and for the last one before Run::finish
+/// returns: points in the groom's unit and order, finite; and the head's pose. With RunOptions::observesLast
+/// it may be called for the last frame only.
 using FrameObserver = std::function<Status(std::span<const Vec3f> points, const HeadPose& head)>;
 
-/// What a run asks and tells while it goes on; each may be empty.
+/// Callbacks of a run; each may be empty.
 struct RunEvents {
-  /// Asked before each frame, of the pre-roll too: whether the run is to end early.
+  /// Called before each frame, also of the pre-roll. True: the run ends early.
   std::function<bool()> isStopped{};
-  /// Frames written so far; before each frame, and after the last.
+  /// Called before each frame and after the last with the number of frames written so far.
   std::function<void(int written)> progress{};
-  /// The first frame is stepped, in which drivers compile; or it failed, or there is none.
+  /// Called once when the first frame has been stepped, in which drivers compile; also if it failed or does
+  /// not exist.
   std::function<void()> firstFrame{};
-  /// A frame is stepped. While the device computes the next.
+  /// Called when a frame has been stepped, while the device computes the next.
   std::function<void(const ComputedFrame& frame)> computed{};
-  /// On the thread that writes: this frame, 1 being the first, is handed to its files.
+  /// Called on the writer's thread when this frame, counted from 1, has been given to its files.
   std::function<void(int frame)> written{};
   FrameObserver observe{};
 };
 
-/// Used by one thread. A run that is destroyed before finish leaves what a killed one leaves.
+/// Used by one thread. A run that is destroyed before finish leaves the same files as one that is killed.
 class Run {
  public:
-  /// Opens folder and hair, and rolls the hair in or brings it back from a checkpoint. The scene must live as
-  /// long. Errors: of the folder (RunFolder), of the checkpoint, of the hair.
+  /// Opens folder and hair, and steps the pre-roll or restores a checkpoint. The scene must outlive the run.
+  /// Errors: of the folder (RunFolder), of the checkpoint, of the hair.
   static Result<Run> open(const LoadedScene& scene, RunOptions options, const HairMaker& makeHair,
                           RunEvents events = {});
   Run(Run&&) noexcept;
   ~Run();
 
-  /// Frames that a run before had done.
+  /// Number of frames that an earlier run had done.
   int resumedFrom() const;
-  /// Steps a frame, while those before it are read back and written. False: all are stepped, or the run was
-  /// stopped. Errors: one sentence; frames finished before it are kept.
+  /// Steps a frame, while earlier ones are read back and written. Returns false if all are stepped or the run
+  /// was stopped. Errors: one sentence; frames finished before the error are kept.
   Result<bool> next();
-  /// Writes what is under way and closes the files. A run that has frames left ends early, but well: with
-  /// what is finished, or, where it has checkpoints, with one. Nothing may be called after it.
+  /// Writes the remaining frames and closes the files. A run that was stopped ends properly: with the frames
+  /// finished so far, or, if it has checkpoints, with a checkpoint. No function may be called afterwards.
   Result<RunOutcome> finish();
 
  private:
@@ -63,7 +64,7 @@ class Run {
   std::unique_ptr<Work> work_;
 };
 
-/// The whole run.
+/// Does the whole run.
 Result<RunOutcome> runScene(const LoadedScene& scene, const RunOptions& options, const HairMaker& makeHair,
                             RunEvents events = {});
 

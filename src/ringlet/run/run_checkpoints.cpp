@@ -10,7 +10,7 @@ bool isOfDevice(const RunFact& fact) {
   return fact.name == "device" || fact.name == "driver" || fact.name == "kernel";
 }
 
-// Those of `before` that are of the device, or those that are not, against the same of this run.
+// Compares the facts about the device (ofDevice), or the other ones, of `before` with those of this run.
 Status compare(const std::filesystem::path& path, const std::vector<RunFact>& now,
                std::vector<RunFact> before, bool ofDevice, const std::string& overwrite) {
   std::erase_if(before, [&](const RunFact& fact) { return isOfDevice(fact) != ofDevice; });

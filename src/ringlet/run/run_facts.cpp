@@ -26,9 +26,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Lines of TOML that Ringlet writes, "key = value  # what it is" below "[table]", each a fact.
+// Adds a fact for each line of TOML as Ringlet writes it: "key = value  # what it is" below "[table]".
 void addLines(std::string_view text, std::string table, std::vector<RunFact>& facts) {
-  std::map<std::string, int, std::less<>> tablesOfList;  // by their common name
+  std::map<std::string, int, std::less<>> tablesOfList;  // by the list's name
   std::size_t lineOfTable = 0;
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
@@ -38,7 +38,7 @@ void addLines(std::string_view text, std::string table, std::vector<RunFact>& fa
     line = line.substr(0, line.find("  #"));
     if (line.empty() || line.starts_with('#')) continue;
     if (line.starts_with('[')) {
-      // Tables of a list have one name and are numbered from 1.
+      // Tables of a list have the same name, so they are numbered from 1.
       table = line;
       if (line.starts_with("[[")) table += fmt::format(" {}", ++tablesOfList[table]);
       lineOfTable = 0;
@@ -58,12 +58,12 @@ void addLines(std::string_view text, std::string table, std::vector<RunFact>& fa
 
 std::vector<fs::path> inputFilesOf(const fs::path& input, const SceneFile& scene) {
   SceneFile asked = scene;
-  asked.cameras.clear();  // which move nothing
+  asked.cameras.clear();  // they have no effect on hair
   std::set<fs::path> files;
   const auto add = [&](const fs::path& file) { files.insert(file); };
   if (!input.empty()) add(input);
   forEachFileOf(std::as_const(asked), add);
-  // Nothing else that a scene names reads files of its own. A scalp is glTF, whatever its ending.
+  // No other file that a scene names refers to further files. A scalp is glTF, whatever its ending.
   for (const fs::path& file : std::vector(files.begin(), files.end())) {
     if (file == scene.scalp.file || motionFileKind(file.string()) == MotionFileKind::gltf)
       std::ranges::for_each(gltfBufferFiles(file), add);
@@ -74,12 +74,12 @@ std::vector<fs::path> inputFilesOf(const fs::path& input, const SceneFile& scene
 Result<std::vector<RunFact>> factsOf(const SceneFile& scene, const std::vector<fs::path>& inputs) {
   SceneFile asked = scene;
   asked.hasMaterial = false;  // see addMaterialFacts
-  asked.output = {};          // and addOutputFacts
-  asked.cameras.clear();      // which move nothing
+  asked.output = {};          // see addOutputFacts
+  asked.cameras.clear();      // they have no effect on hair
   std::vector<RunFact> facts;
   addLines(sceneText(asked), "", facts);
   for (const fs::path& input : inputs) {
-    if (isSceneFile(input)) continue;  // its keys are what counts
+    if (isSceneFile(input)) continue;  // its keys are facts already
     const auto bytes = readWholeFile(input);
     if (!bytes) return bytes.error();
     const auto* data = reinterpret_cast<const Bytef*>(bytes->data());
@@ -118,7 +118,7 @@ void addOutputFacts(const RunOptions& options, std::vector<RunFact>& facts) {
     facts.push_back({name, fmt::format("{}", value)});
   };
   for (const AnimationFormat& format : animationFormats()) {
-    if (!format.hasPrecisions)  // the cache's is a fact too
+    if (!format.hasPrecisions)  // the precision of the cache is a fact of its own
       add(fmt::format("hair{}", format.extension),
           std::ranges::count(options.animations, format.extension) > 0);
   }

@@ -1,5 +1,4 @@
-// What a run is a run of, fact by fact: so that a run that goes on with another's frames can say what
-// differs.
+// The facts that identify a run. Comparing them lets a run that resumes another's frames say what differs.
 #pragma once
 
 #include <filesystem>
@@ -17,21 +16,21 @@ namespace ringlet {
 /// Every file that a scene reads; `input`: what the user named, the scene or its groom.
 std::vector<std::filesystem::path> inputFilesOf(const std::filesystem::path& input, const SceneFile& scene);
 
-/// Every key of the scene that is not the default, and of every file its bytes' CRC-32. Fails where one
+/// Every key of the scene that differs from the default, and the CRC-32 of every file. Fails where a file
 /// cannot be read.
 Result<std::vector<RunFact>> factsOf(const SceneFile& scene,
                                      const std::vector<std::filesystem::path>& inputs);
 
-/// What a run of a scene's file needs besides its scene, before it is opened: what prims and values of the
-/// groom's file come from, in `origin`, which lives as long as the run, and facts, where one may go on with
-/// it. `input`: as inputFilesOf. Errors: the run would overwrite what it reads; a file that cannot be read.
+/// Prepares a run of a scene's file, before it is opened: loads the groom's file, of which prims and values
+/// are needed, into `origin`, which must outlive the run; and collects facts if another run may resume this
+/// one. `input`: as for inputFilesOf. Errors: the run would overwrite an input; a file cannot be read.
 Status prepareRun(const SceneFile& scene, const std::filesystem::path& input,
                   std::optional<LoadedGroom>& origin, RunOptions& options);
 
-/// Every parameter that is not the default.
+/// Adds every parameter that differs from the default.
 void addMaterialFacts(const Material& material, std::vector<RunFact>& facts);
 
-/// What a run writes, and what is in it.
+/// Adds the outputs of a run and what they contain.
 void addOutputFacts(const RunOptions& options, std::vector<RunFact>& facts);
 
 }  // namespace ringlet

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kCheckpoint = "checkpoint.rgk";
 
-// What a run leaves that did not end.
+// Files that a run left which did not end.
 std::vector<std::string> leftIn(const fs::path& folder) {
   std::vector<std::string> names{kCheckpoint}, left;
   for (const AnimationFormat& format : animationFormats())
@@ -32,8 +32,8 @@ std::vector<std::string> leftIn(const fs::path& folder) {
   return left;
 }
 
-// Whether a run may have written a file of that name at once: the checkpoint, last.obj, sheet.png, and what
-// stands beside an animation (hair.obj of hair.pc2, hair.usda.cuts.csv).
+// Whether a run may have written a file of that name in one piece: the checkpoint, last.obj, sheet.png, and
+// files beside an animation (hair.obj of hair.pc2, hair.usda.cuts.csv).
 bool isOfARun(const std::string& name) {
   return name == kCheckpoint || name == "last.obj" || name == "sheet.png" || name.starts_with("hair.");
 }
@@ -72,7 +72,7 @@ Result<RunFolder> RunFolder::open(const fs::path& folder, Leftovers leftovers,
   if (code)
     return Error{fmt::format("cannot create the folder {}: {}", folder.string(), code.message()),
                  Fault::output};
-  // mpirun does not wait for the ranks that it kills, and a script that starts again is quick.
+  // mpirun does not wait for ranks that it kills, and a script may start the next run at once.
   constexpr std::chrono::seconds kPatience(3);
   auto lock = FolderLock::take(folder, words.who, kPatience);
   if (!lock) return lock.error();
@@ -107,14 +107,14 @@ Status RunFolder::readLeftovers(Leftovers leftovers, const std::vector<fs::path>
     warnings_.push_back(
         fmt::format("{} has nothing to go on with; the run begins at its first frame", folder_.string()));
   dropTemporaries();
-  // Of the run that begins anew nothing may be taken for its own. Its frames stay until there is one to
-  // replace them.
+  // A run that begins anew must not take the checkpoint of an old one for its own. Old frames stay until
+  // there is a frame to replace them.
   std::error_code ignored;
   if (!checkpoint_) fs::remove(checkpointPath(), ignored);
   return {};
 }
 
-// What a killed run left of files that are written at once.
+// Removes temporary files that a killed run left.
 void RunFolder::dropTemporaries() const {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_, ignored)) {

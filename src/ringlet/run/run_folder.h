@@ -1,6 +1,6 @@
-// RunFolder: the folder that a run writes its results into, and has for itself. What runs left there,
-// finished (hair.usda, sheet.png) or killed (hair.usda.partial, checkpoint.rgk), is never touched without
-// being asked to.
+// RunFolder: the folder that a run writes its results into, locked for that run. Files that earlier runs
+// left, finished (hair.usda, sheet.png) or killed (hair.usda.partial, checkpoint.rgk), are touched only on
+// request.
 #pragma once
 
 #include <filesystem>
@@ -17,21 +17,21 @@ namespace ringlet {
 
 class RunFolder {
  public:
-  /// Makes the folder and takes it for a run that will write `outputs`. Errors: it cannot be written; another
-  /// run has it; it holds what another run left or some of `outputs`, and `leftovers` does not say to
-  /// overwrite; there is something to go on with, but no checkpoint that can be read.
+  /// Makes the folder and locks it for a run that will write `outputs`. Errors: it cannot be written; another
+  /// run has it; it contains leftovers of another run or some of `outputs`, and `leftovers` does not say to
+  /// overwrite; it is to be resumed, but has no readable checkpoint.
   static Result<RunFolder> open(const std::filesystem::path& folder, Leftovers leftovers,
                                 const std::vector<std::filesystem::path>& outputs, const RunWords& words);
 
-  /// To go on from; none where the run begins.
+  /// The checkpoint to resume from; none if the run begins.
   const std::optional<Checkpoint>& checkpoint() const { return checkpoint_; }
-  /// Its state is large, and no longer needed once it is restored.
+  /// Frees the checkpoint's state, which is large, once it is restored.
   void dropState();
   std::filesystem::path checkpointPath() const { return folder_ / "checkpoint.rgk"; }
-  /// The run is finished: nothing is left to go on from.
+  /// Removes the checkpoint after the run has finished.
   void finish() const;
 
-  /// Things the user should know of.
+  /// Warnings for the user.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
@@ -47,7 +47,7 @@ class RunFolder {
   std::vector<std::string> warnings_;
 };
 
-/// Fails where `folder` holds what a run left that did not end, or some of `outputs`, which are in it.
+/// Fails where `folder` contains leftovers of a run that did not end, or some of `outputs`, which are in it.
 Status checkFolderIsFree(const std::filesystem::path& folder,
                          const std::vector<std::filesystem::path>& outputs, const RunWords& words);
 

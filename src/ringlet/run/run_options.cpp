@@ -97,7 +97,7 @@ Status chooseFiles(const std::vector<std::string>& names, SceneOutput& output) {
   return {};
 }
 
-// The paper's loops solve no system; contacts, air and bodies have one of other terms.
+// The paper's loops solve no linear system; with contacts, air and bodies the system has other terms.
 bool measuresResidual(const LoadedScene& scene, const RunOptions& options) {
   const Settings& settings = scene.settings;
   return options.measuresResidual && !settings.contacts.on && !settings.air.on && !settings.goal.on &&

@@ -1,4 +1,4 @@
-// RunOptions: what a run of a scene writes, what it keeps to go on from, and what it measures.
+// RunOptions: what a run of a scene writes, how often it writes checkpoints, and what it measures.
 #pragma once
 
 #include <filesystem>
@@ -19,11 +19,11 @@
 
 namespace ringlet {
 
-/// What becomes of what a run finds in its folder. The last goes on with a run that has a checkpoint and
-/// begins anew where there is none.
+/// What to do with files that a run finds in its folder. The last one resumes a run that has a checkpoint and
+/// overwrites otherwise.
 enum class Leftovers { refuse, overwrite, resume, resumeOrOverwrite };
 
-/// How the user says what errors advise.
+/// How messages name the user's options.
 struct RunWords {
   std::string overwrite = "Leftovers::overwrite", resume = "Leftovers::resume", elsewhere = "another folder",
               who = "a host of ringlet";
@@ -31,52 +31,54 @@ struct RunWords {
 
 struct RunOptions {
   std::filesystem::path folder{};                // for the results; empty: nothing is written
-  std::vector<std::string> animations{".usda"};  // endings of what is written as hair.*, but for the cache
+  std::vector<std::string> animations{".usda"};  // endings of the hair.* files, without the cache
   bool writesLast = true, writesSheet = true;    // last.obj, sheet.png
-  std::optional<CachePrecision> cache{};         // of hair.rgc; none: it is not written
+  std::optional<CachePrecision> cache{};         // of hair.rgc; none: no cache is written
   UpAxis up = UpAxis::y;
-  double width = 0.0005;              // diameter of strands in what is written [m]
+  double width = 0.0005;              // diameter of strands in written files [m]
   std::optional<double> tipWidth{};   // at the tip, in USD files [m]
-  std::vector<std::string> values{};  // that these have besides, as SceneOutput says them
-  int hairs = 0;                      // above 0: animations have so many, which follow the strands
-  HairLook look{};                    // of these
-  FollowMoverMaker mover{};  // what moves them, such as followOn(device); needed where there are hairs
-  UsdHead usdHead = UsdHead::baked;     // and where these have the head's motion
-  int clipFrames = 0;                   // above 0: hair.usda has value clips of so many frames
-  bool usesGroomPrims = false;          // hair.usdc has changes of the prims of the groom's file
-  const LoadedGroom* origin = nullptr;  // that file, where it is looked at for these
+  std::vector<std::string> values{};  // further values in written files, as in SceneOutput
+  int hairs = 0;                      // above 0: animations contain this many hairs, which follow the
+                                      // strands, in place of these
+  HairLook look{};                    // of following hairs
+  FollowMoverMaker mover{};  // moves following hairs, such as followOn(device); required if there are any
+  UsdHead usdHead = UsdHead::baked;     // how USD files contain the head's motion
+  int clipFrames = 0;                   // above 0: hair.usda has value clips of this many frames
+  bool usesGroomPrims = false;          // hair.usdc contains changes of the prims of the groom's file
+  const LoadedGroom* origin = nullptr;  // that file, if it is needed for values and prims
   bool observesLast = false;            // RunEvents::observe needs the last frame only
-  int checkpointFrames = 0;             // from one to the next; 0: none, or as many as the run had
+  int checkpointFrames = 0;             // frames between checkpoints; 0: none, or the interval of the run
+                                        // that is resumed
   Leftovers leftovers = Leftovers::refuse;
-  std::vector<RunFact> facts{};   // what a run that goes on must have been a run of (run_facts.h)
-  std::filesystem::path trace{};  // of when each dispatch ran on one device (trace_file.h); empty: none. Not
-                                  // with measuresContacts, whose frames are steps
-  bool measuresContacts = false;  // every step and frame, with contacts on or off; costs CPU time
-  bool measuresResidual = false;  // of the velocity solve, where the integrator has one and kernels tell it
+  std::vector<RunFact> facts{};   // which a run that resumes must share (run_facts.h)
+  std::filesystem::path trace{};  // file of the times of each dispatch on one device (trace_file.h); empty:
+                                  // none. Not with measuresContacts, whose frames are steps
+  bool measuresContacts = false;  // in every step and frame, whether contacts are on or off; costs CPU time
+  bool measuresResidual = false;  // of the velocity solve, if the integrator has one and kernels measure it
   RunWords words{};
 };
 
-/// What a scene file says of its run and its files; all else is the default.
+/// The options that a scene file contains; all others have their defaults.
 RunOptions runOptionsOf(const SceneFile& scene);
 
-/// Takes the groom's file as what values and prims come from; it must live as long as the run. Fails where
-/// the groom has no prims and their changes are asked for.
+/// Takes values and prims from the groom's file, which must outlive the run. Fails where changes of prims are
+/// asked for and the groom has none.
 Status chooseOrigin(const LoadedGroom& groom, RunOptions& options);
-/// Whether what is written needs more of the groom's file than its strands.
+/// Whether the output needs more of the groom's file than its strands.
 bool needsOrigin(const SceneOutput& output);
 
-/// These files in place of what the scene says, by their names: hair.usda and the like (hair.rgc with every
-/// bit), last.obj, sheet.png. Errors: another name.
+/// Replaces the scene's choice of files by these names: hair.usda and the like (hair.rgc with full
+/// precision), last.obj, sheet.png. Errors: another name.
 Status chooseFiles(const std::vector<std::string>& names, SceneOutput& output);
 
-/// The animations such a run writes, by their names in its folder.
+/// The names of the animations that the run writes in its folder.
 std::vector<std::string> animationsOf(const RunOptions& options);
-/// What such a run writes, finished.
+/// The files that the finished run leaves.
 std::vector<std::filesystem::path> outputsOf(const RunOptions& options);
 
-/// Whether the velocity solve's residual is asked for, and there is one.
+/// Whether the velocity solve's residual is asked for and can be measured.
 bool measuresResidual(const LoadedScene& scene, const RunOptions& options);
-/// What the run's hair is made of. Refers to scene and frames.
+/// The input from which the run's hair is made. Refers to scene and frames.
 SceneHairInput hairInputOf(const LoadedScene& scene, const SceneFrames& frames, const RunOptions& options);
 
 }  // namespace ringlet

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What a report is made of.
+// The inputs of a report.
 struct Source {
   const RunNames& names;
   const Settings& settings;
@@ -193,7 +193,7 @@ constexpr Row kRows[] = {
 std::string runReport(const RunNames& names, const Settings& settings, const RunOutcome& outcome) {
   Json json;
   for (const Row& row : kRows) json[row.key.key] = row.value({names, settings, outcome});
-  // Paths may have bytes that are no text.
+  // Paths may contain bytes that are not valid text.
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

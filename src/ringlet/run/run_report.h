@@ -1,4 +1,4 @@
-// What came of a run, as one JSON object: that of `ringlet simulate --json`.
+// The outcome of a run as one JSON object, as `ringlet simulate --json` prints it.
 #pragma once
 
 #include <span>
@@ -9,18 +9,18 @@
 
 namespace ringlet {
 
-/// What the user chose, by the names of scene files and options.
+/// The user's choices, by their names in scene files and options.
 struct RunNames {
   std::string integrator = "jacobi", backend = "gpu", material = "default";
 };
 
-/// In one line, without its end. What is not finite is null.
+/// One line, without a line end. Numbers that are not finite become null.
 std::string runReport(const RunNames& names, const Settings& settings, const RunOutcome& outcome);
 
 struct ReportKey {
   const char* key;
   const char* unit;    // "" for none
-  const char* effect;  // what it says, a sentence
+  const char* effect;  // its meaning, a sentence
 };
 
 /// Every key of the object, in its order.

@@ -1,4 +1,4 @@
-// The writers of a run: what happens to a frame once it is stepped.
+// RunWriters: the files of a run, and what is written for each frame.
 #pragma once
 
 #include <filesystem>
@@ -21,28 +21,29 @@
 
 namespace ringlet {
 
-/// The files of a run, made when there is a frame to write: until then nothing in the folder is touched.
+/// Files are made with the first frame; before it nothing in the folder is touched.
 class RunWriters {
  public:
-  /// The scene must live as long. `hairs`: what animations have in place of the strands. `frameCount`: frames
-  /// that a run before left and this one goes on with; they are in the files, and archive() brings back what
-  /// is not.
+  /// The scene must outlive this. `hairs`: animations contain these in place of the strands. `frameCount`:
+  /// frames of an earlier run that this one resumes; they are in the files already, and archive() restores
+  /// the rest.
   RunWriters(const LoadedScene& scene, const RunOptions& options, std::optional<FullHair> hairs,
              int frameCount);
 
-  /// Frames in order, 1 is the first; points in the groom's unit and order, finite; where head and bodies
-  /// are.
+  /// Frames in order, from 1; points in the groom's unit and order, finite; with the poses of head and
+  /// bodies.
   Status addFrame(int frame, std::vector<Vec3f> points, const HeadPose& head,
                   std::span<const BodyPose> bodies);
-  /// What was added is on the disk.
+  /// Waits until everything added is on the disk.
   Status sync();
-  /// What is kept beside the files, for a checkpoint; but not the last frame's points, since at least one
-  /// follows.
+  /// Archives the state that is not in the files, for a checkpoint; without the last frame's points, since at
+  /// least one frame follows.
   void archive(Archive& archive);
-  /// Closes the files, after at least one frame, and says which there are.
+  /// Closes the files, after at least one frame, and returns their paths.
   Result<std::vector<std::filesystem::path>> finish();
 
-  /// How far a point of an animation may be from its particle [m]; none where all keep every bit.
+  /// Largest distance of a point of an animation from its particle [m]; none if all files have full
+  /// precision.
   std::optional<double> errorBound() const;
 
  private:

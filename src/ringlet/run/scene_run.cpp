@@ -6,7 +6,7 @@
 namespace ringlet {
 namespace {
 
-// As takeChange takes hair.
+// Adapts a Simulation to takeChange.
 struct Changeable {
   Simulation& hair;
   Status cut(std::span<const StrandCut> cuts) { return hair.cut(cuts); }

@@ -1,4 +1,4 @@
-// A loaded scene on a simulation, frame by frame. For hosts that step a scene themselves, in C++, C and
+// Steps a loaded scene on a Simulation, frame by frame. For hosts that step a scene themselves, in C++, C and
 // Python:
 //
 //   const SceneFrames frames(scene);
@@ -17,25 +17,25 @@
 
 namespace ringlet {
 
-/// What acts on a scene's hair in some frame.
+/// The features that a scene's hair needs in any of its frames.
 Features featuresOf(const LoadedScene& scene);
 
-/// `kernel` with the scene's features besides.
+/// `kernel` with the scene's features added.
 KernelChoice kernelOf(const LoadedScene& scene, KernelChoice kernel = {});
 /// HairAsset::build of the scene's groom, material and settings.
 Result<HairAsset> buildAsset(const ComputeDevice& device, const LoadedScene& scene,
                              const KernelChoice& kernel = {});
 
-/// Hair of the scene that begins there, at rest. Refers to both.
+/// The state of the scene's hair at these places, at rest. Refers to both arguments.
 InitialState stateOf(const ScenePlaces& places, const LoadedScene& scene);
 
-/// What a frame changes, and its forces, given to hair before it; none is in flight where there is a change.
-/// `isStepByStep`: the hair's frames are steps of the scene's.
+/// Applies a frame's change and forces to the hair before the frame; no frame may be in flight if there is a
+/// change. `isStepByStep`: the hair's frames are steps of the scene's frames.
 Status prepare(const SceneFrame& frame, Simulation& hair, bool isStepByStep = false);
-/// What frames before this one changed, of which a checkpoint knows nothing, given to hair that is restored
-/// from one.
+/// Applies the changes of all frames before this one, which checkpoints do not contain, to hair before it is
+/// restored.
 Status catchUp(const SceneFrames& frames, int frame, Simulation& hair, bool isStepByStep = false);
-/// The frame, prepare and Simulation::stepFrame.
+/// Gets the frame, then calls prepare and Simulation::stepFrame.
 Status stepScene(const SceneFrames& frames, Simulation& hair, int frame);
 
 }  // namespace ringlet

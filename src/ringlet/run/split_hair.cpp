@@ -15,12 +15,12 @@
 namespace ringlet {
 namespace {
 
-// Once, where all say the same.
+// A single text if all are equal, else all of them joined.
 std::string joinedOnce(const std::vector<std::string>& all) {
   return std::set(all.begin(), all.end()).size() == 1 ? all[0] : fmt::format("{}", fmt::join(all, " + "));
 }
 
-// Of parts, as one.
+// The report of all parts together.
 SimulationReport sumOf(std::span<const SimulationReport> parts, std::span<const double> edgeCounts) {
   SimulationReport all;
   double edges = 0;
@@ -106,7 +106,7 @@ class SplitHair : public SceneHair {
     }
     return HairReports{sumOf(hairs, edges), contacts};
   }
-  // They work side by side.
+  // Parts work at the same time, so the longest time of each stage counts.
   HairTimes times() const override {
     HairTimes longest;
     for (const HairPart& part : parts_)
@@ -117,7 +117,7 @@ class SplitHair : public SceneHair {
   bool tellsTimesOfFrames() const override {
     return std::ranges::all_of(parts_, [](const HairPart& part) { return part.hair->tellsTimesOfFrames(); });
   }
-  // Warnings and rigid strands are of the whole groom.
+  // Warnings and rigid strands are those of the whole groom.
   HairFacts facts() const override {
     HairFacts all = parts_[0].hair->facts();
     std::vector<std::string> devices{all.device}, drivers{all.driver}, kernels{all.kernel};
@@ -140,8 +140,8 @@ class SplitHair : public SceneHair {
  private:
   static Error isNotCut() { return Error{"hair that is divided among devices is not cut; use one device"}; }
 
-  // The first comes last: it does at once what it is told, while others are under way. All are told, so that
-  // none waits for one that was not.
+  // Part 0 runs on this thread, so the others are started first. Every part is called even after an error,
+  // since the others wait for it.
   template <class Do>
   Status each(const Do& act) {
     Status all;
@@ -151,7 +151,7 @@ class SplitHair : public SceneHair {
     return all;
   }
 
-  // The part's own strands of `from`; of others nothing is known there.
+  // Copies the part's own strands; its positions of other strands are unknown.
   void take(const HairPart& part, const std::vector<Vec3f>& from, std::vector<Vec3f>& to) const {
     for (const std::uint32_t s : part.strands)
       std::copy(from.begin() + firstPoint_[s], from.begin() + firstPoint_[s + 1],
@@ -165,7 +165,7 @@ class SplitHair : public SceneHair {
 
   PartLinks links_;
   std::vector<HairPart> parts_;
-  std::vector<std::uint32_t> firstPoint_;  // of the groom
+  std::vector<std::uint32_t> firstPoint_;  // of each strand in the groom
 };
 
 }  // namespace

@@ -1,6 +1,5 @@
-// SplitHair: the strands of a groom in parts, each on a device; each strand has the bits that it has on one.
-// Where strands meet, parts are stepped at the same time and hand each other what they do
-// (solver/part_link.h).
+// SplitHair: hair whose strands are divided among devices; each strand has the same bits as on a single
+// device. With contacts, parts are stepped at the same time and exchange data (solver/part_link.h).
 #pragma once
 
 #include <cstdint>
@@ -15,7 +14,7 @@
 
 namespace ringlet {
 
-using StrandParts = std::vector<std::vector<std::uint32_t>>;  // strands of each
+using StrandParts = std::vector<std::vector<std::uint32_t>>;  // the strands of each part
 
 struct HairPart {
   std::unique_ptr<SceneHair> hair;
@@ -23,14 +22,14 @@ struct HairPart {
 };
 using PartLinks = std::vector<std::unique_ptr<PartLink>>;
 
-/// A part on a device; `link`: where strands meet.
+/// One part on a device; `link`: needed with contacts.
 Result<std::unique_ptr<SceneHair>> makeHairPart(const SceneHairInput& input, DeviceHairChoice choice,
                                                 std::span<const std::uint32_t> strands, PartLink* link);
-/// All of them as one. The links are the parts'.
+/// Joins all parts. The links are those of the parts.
 std::unique_ptr<SceneHair> joinParts(PartLinks links, std::vector<HairPart> parts, const Groom& groom);
 
-/// `choices`: a device each; one may be there twice. Errors: what HairAsset::build says of hair that cannot
-/// be divided.
+/// `choices`: one device for each part; a device may occur twice. Errors: what HairAsset::build says of hair
+/// that cannot be divided.
 Result<std::unique_ptr<SceneHair>> makeSplitHair(const SceneHairInput& input, const StrandParts& parts,
                                                  std::vector<DeviceHairChoice> choices);
 

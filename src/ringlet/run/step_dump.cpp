@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// To the end of that step, and no further.
+// Steps to the end of step `last` and no further.
 Status stepTo(std::uint64_t last, const LoadedScene& scene, const SceneFrames& frames, Simulation& hair) {
   std::uint64_t done = 0;
   for (int number = frames.first(); number < scene.frameCount; ++number) {

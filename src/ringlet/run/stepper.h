@@ -1,4 +1,4 @@
-// Stepper: what the frames of a run are stepped by, and looked at meanwhile.
+// Stepper: steps the frames of a run, and measures while it does.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +18,7 @@
 
 namespace ringlet {
 
-/// Steps hair, with frames in flight; where contacts are to be measured step by step instead, to look at
-/// each.
+/// Keeps frames in flight; if contacts are to be measured, it steps and measures one step at a time instead.
 class Stepper {
  public:
   static Result<Stepper> make(SceneHair& hair, const LoadedScene& scene, bool measuresContacts) {
@@ -32,7 +31,7 @@ class Stepper {
     return stepper;
   }
 
-  /// As SceneHair's.
+  /// As the functions of SceneHair.
   Status submit(const SceneFrame& frame) { return watch_ ? lookAtSteps(frame) : hair_->submit(frame); }
   Status wait() {
     if (!watch_) {
@@ -44,7 +43,7 @@ class Stepper {
     looked_.pop_front();
     return {};
   }
-  /// Of the frame waited for last, once. `room`: memory for them, of whatever size.
+  /// Positions of the frame waited for last; call it once per frame. `room`: memory to use, of any size.
   std::vector<Vec3f> framePositions(std::vector<Vec3f> room) {
     if (watch_) return std::move(waited_);
     room.resize(pointCount_);
@@ -53,7 +52,8 @@ class Stepper {
     return room;
   }
 
-  /// All that later frames depend on, none being in flight; and back, before the first, which is `frame`.
+  /// Saves the state that later frames depend on, with no frame in flight; restores it before the first
+  /// frame, `frame`.
   Status save(Archive& archive) {
     auto state = hair_->checkpoint();
     if (!state) return state.error();
@@ -69,7 +69,7 @@ class Stepper {
     return {};
   }
 
-  /// What was seen goes into the outcome; `contacts`: as the hair tells of them now.
+  /// Adds what was measured to the outcome; `contacts`: the hair's present report.
   void tell(const ContactReport& contacts, RunOutcome& outcome) const {
     outcome.waitedForDevice = waiting_;
     outcome.copied = copying_;
@@ -82,7 +82,8 @@ class Stepper {
     outcome.stages["measure"] = measuring_;
   }
 
-  /// Steps that are frames of their own would be called wrong numbers of steps a frame.
+  /// If contacts are measured, each step is a frame, so the solver's warnings about steps a frame would be
+  /// wrong; the watch's warnings are returned instead.
   std::vector<std::string> warnings() const { return watch_ ? watch_->warnings() : hair_->facts().warnings; }
 
  private:
@@ -102,7 +103,7 @@ class Stepper {
     return hair_->wait();
   }
 
-  // Stages of stepping.
+  // Sum of the stages that are stepping.
   static double sumOf(const std::map<std::string, double>& stages) {
     double sum = 0;
     for (const auto& [stage, milliseconds] : stages) sum += stage == kCopyStage ? 0 : milliseconds;
@@ -117,7 +118,7 @@ class Stepper {
     told.least = *std::ranges::min_element(times);
     return told;
   }
-  // Of the frame that is over now.
+  // Notes the time of the frame that has just ended.
   void noteTime() {
     if (!hair_->tellsTimesOfFrames()) return;
     const double now = sumOf(hair_->times().stages);
@@ -156,11 +157,11 @@ class Stepper {
   std::size_t pointCount_;  // of the groom
   bool hasContacts_;
   std::optional<ContactWatch> watch_;
-  std::vector<Vec3f> now_, waited_;          // positions, where watch_ looks at steps
-  std::deque<std::vector<Vec3f>> looked_{};  // of frames not waited for
+  std::vector<Vec3f> now_, waited_;          // positions, if watch_ measures steps
+  std::deque<std::vector<Vec3f>> looked_{};  // positions of frames not waited for yet
   ContactReport worst_;
   double waiting_ = 0, measuring_ = 0, copying_ = 0;  // [ms]
-  double before_;                                     // of stepping, in frames so far [ms]
+  double before_;                                     // of stepping, over all frames so far [ms]
   std::vector<double> times_{};                       // of each frame [ms]
 };
 

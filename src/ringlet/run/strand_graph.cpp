@@ -6,7 +6,7 @@
 namespace ringlet {
 namespace {
 
-// Times of a lavapipe step: a particle, a contact particle, either side of a pair that overlaps [ns].
+// Times in a step on lavapipe [ns]: a particle, a contact particle, each side of a pair that overlaps.
 constexpr double kPerParticle = 80, kPerContactParticle = 82, kPerSide = 60;
 constexpr double kUnit = 100;
 

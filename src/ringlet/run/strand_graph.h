@@ -1,5 +1,5 @@
-// StrandGraph: the strands that meet pair by pair, weighted by what they cost, for dividing them among
-// devices. Iben et al. 2012, section 4.
+// StrandGraph: the strands that touch pair by pair, weighted by their cost, for dividing them among devices.
+// Iben et al. 2012, section 4.
 #pragma once
 
 #include <cstddef>
@@ -12,10 +12,11 @@
 
 namespace ringlet {
 
-/// Strands in device order; as METIS takes a graph.
+/// Strands in device order; the format of a graph for METIS.
 struct StrandGraph {
   std::vector<std::int32_t> first;                 // strandCount + 1 entries, into the next two
-  std::vector<std::int32_t> neighbours, overlaps;  // of each strand; overlaps at rest with each
+  std::vector<std::int32_t> neighbours, overlaps;  // of each strand; number of overlaps at rest with each
+                                                   // neighbour
   std::vector<std::int32_t> weights;               // of each strand: its share of a step [100 ns]
 
   std::size_t strandCount() const { return weights.size(); }

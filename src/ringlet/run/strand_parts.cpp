@@ -18,7 +18,8 @@ namespace {
 
 using Parts = std::vector<std::vector<std::uint32_t>>;
 
-// Strands by rising length, one for each part in turn, so that all have about as many of every length.
+// Deals out strands by rising length, to each part in turn, so that all parts get about as many of each
+// length.
 Parts dealStrands(const Groom& groom, std::size_t count) {
   std::vector<std::uint32_t> order(groom.strandCount());
   std::iota(order.begin(), order.end(), 0u);
@@ -37,7 +38,7 @@ std::vector<std::int32_t> divide(const StrandGraph& graph, int count) {
   return imbalance(graph, byWays, count) < imbalance(graph, parts, count) ? byWays : parts;
 }
 
-// Each part gets a strand, if need be the last of the largest.
+// Gives every empty part a strand, the last of the largest part.
 void fillEmpty(Parts& parts) {
   for (auto& part : parts) {
     if (!part.empty()) continue;
@@ -99,7 +100,7 @@ Result<Parts> divideStrands(const Groom& groom, const Settings& settings, const 
     return Error{fmt::format("{} parts are more than the groom's {} strands", count, groom.strandCount())};
   if (!rest.contacts || !rest.contacts->kinds.pairs) return dealStrands(groom, count);
   std::optional<RestContacts> near;
-  if (!settings.contacts.prunePairs) {  // any two may touch: those that are near
+  if (!settings.contacts.prunePairs) {  // any pair may touch: take pairs that are near at rest
     ContactSettings pruned = settings.contacts;
     pruned.prunePairs = true, pruned.minOverlaps = 1;
     near = buildRestContacts(rest.state, pruned);
@@ -108,7 +109,7 @@ Result<Parts> divideStrands(const Groom& groom, const Settings& settings, const 
   Parts parts(count);
   for (std::size_t s = 0; s < partOf.size(); ++s)
     parts[static_cast<std::size_t>(partOf[s])].push_back(rest.state.strandInGroom[s]);
-  // Strands that are carried rigidly meet none.
+  // Rigid strands have no contacts, so they may be in any part.
   for (std::size_t k = 0; k < rest.state.rigid.size(); ++k)
     parts[k % count].push_back(rest.state.rigid[k].strandInGroom);
   fillEmpty(parts);

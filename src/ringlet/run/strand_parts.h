@@ -1,5 +1,5 @@
-// The parts that strands are divided into among devices (solver/part_link.h). Strands that may touch go
-// together, so that little is sent between parts (rest/rest_halo.h).
+// How strands are divided into parts among devices (solver/part_link.h). Strands that may touch stay
+// together, so that parts exchange little data (rest/rest_halo.h).
 #pragma once
 
 #include <cstddef>
@@ -15,21 +15,22 @@
 
 namespace ringlet {
 
-/// Whether METIS was there when this was built (Debian: libmetis-dev).
+/// Whether this build has METIS (Debian: libmetis-dev).
 bool hasMetis();
 
-/// The part of each strand, device order. Ranges of device order, of about equal weight.
+/// The part of each strand, device order: consecutive ranges of about equal weight.
 std::vector<std::int32_t> partsAlongCurve(const StrandGraph& graph, int count);
-/// By METIS, with a fixed seed: recursive bisection, or k-way. Needs hasMetis(), and two parts or more.
+/// The part of each strand by METIS, with a fixed seed: recursive bisection, or k-way (byWays). Needs
+/// hasMetis() and at least two parts.
 std::vector<std::int32_t> partsByMetis(const StrandGraph& graph, int count, bool byWays);
 
 /// The weight of the heaviest part over the mean.
 double imbalance(const StrandGraph& graph, std::span<const std::int32_t> parts, int count);
 
-/// Strands of each of `count` parts, groom order, each in one part. Where strands meet pair by pair: by
-/// METIS, k-way if bisection leaves an imbalance above 1.05; without METIS along the curve. Else they are
-/// dealt out by length. `rest`: of the groom with these settings. Errors: fewer strands than parts. Cost:
-/// that of METIS, where strands may meet: 10 ms for 1,500 strands, 0.3 s for 20,000.
+/// The strands of each of `count` parts, groom order, each strand in one part. With contacts pair by pair: by
+/// METIS, k-way if bisection leaves an imbalance above 1.05; without METIS in ranges of device order.
+/// Otherwise they are dealt out by length. `rest`: of the groom with these settings. Errors: fewer strands
+/// than parts. Cost with contacts: that of METIS, 10 ms for 1,500 strands, 0.3 s for 20,000.
 Result<std::vector<std::vector<std::uint32_t>>> divideStrands(const Groom& groom, const Settings& settings,
                                                               const WholeRest& rest, std::size_t count);
 

@@ -32,12 +32,12 @@ class ThreadedHair : public SceneHair {
   HairFacts facts() const override { return settled().facts(); }
 
  private:
-  // The frame under way is over; how it ended.
+  // Waits for the frame in flight and returns its status.
   Status settle() const {
     if (under_.valid() && outcome_) outcome_ = under_.get();
     return outcome_;
   }
-  // What failed is told by submit and wait.
+  // Waits without returning the error: submit and wait return it.
   SceneHair& settled() const {
     (void)settle();
     return *hair_;
@@ -45,7 +45,7 @@ class ThreadedHair : public SceneHair {
 
   std::unique_ptr<SceneHair> hair_;
   mutable Status outcome_{};
-  mutable std::future<Status> under_;  // goes first, waiting for its thread
+  mutable std::future<Status> under_;  // destroyed first: it waits for its thread
 };
 
 }  // namespace

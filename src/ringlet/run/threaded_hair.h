@@ -1,4 +1,4 @@
-// ThreadedHair: a part of divided hair, whose frames are stepped on a thread of their own.
+// ThreadedHair: a part of divided hair whose frames are stepped on a thread of its own.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 
 namespace ringlet {
 
-/// submit comes back at once; every other call waits until the frame is over.
+/// submit returns at once; every other call waits until the frame is over.
 std::unique_ptr<SceneHair> onThread(std::unique_ptr<SceneHair> hair);
 
 }  // namespace ringlet

@@ -14,7 +14,7 @@ constexpr const char* kRowNames =
 {"ph":"M","pid":1,"tid":1,"name":"thread_name","args":{"name":"frames"}},
 {"ph":"M","pid":1,"tid":2,"name":"thread_name","args":{"name":"dispatches"}})";
 
-// From milliseconds to the format's microseconds.
+// An event; converts milliseconds to the format's microseconds.
 std::string event(int row, const std::string& name, double begin, double milliseconds) {
   return fmt::format(",\n{{\"ph\":\"X\",\"pid\":1,\"tid\":{},\"name\":\"{}\",\"ts\":{:.3f},\"dur\":{:.3f}}}",
                      row, name, 1000 * begin, 1000 * milliseconds);

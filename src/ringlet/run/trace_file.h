@@ -1,5 +1,5 @@
-// TraceFile: when each dispatch of a run's frames ran on the device, in the Trace Event Format (Google,
-// 2016), which chrome://tracing and Perfetto show.
+// TraceFile: the time of each dispatch of a run's frames on the device, in the Trace Event Format (Google,
+// 2016), which chrome://tracing and Perfetto read.
 #pragma once
 
 #include <filesystem>
@@ -14,13 +14,13 @@ namespace ringlet {
 
 class TraceFile {
  public:
-  /// An old file is replaced. Errors: it cannot be written.
+  /// Replaces an old file. Errors: it cannot be written.
   static Result<TraceFile> create(const std::filesystem::path& path);
 
-  /// Two rows: frames, each from its first dispatch to the end of its last, and dispatches. 1 is the first
-  /// frame.
+  /// Writes into two rows: the frame, from its first dispatch to the end of its last, and its dispatches.
+  /// Frames count from 1.
   void addFrame(int number, std::span<const StageSpan> stages);
-  /// Ends the file. A file that is not ended is read by both programs, too.
+  /// Ends the file. Both programs also read a file that was not ended.
   Status finish();
 
  private:

@@ -13,7 +13,7 @@ WriterThread::WriterThread(std::size_t room) : room_(room) {
   try {
     thread_ = std::thread([this] { run(); });
   } catch (const std::system_error&) {
-    // No thread to be had: the caller's does the work.
+    // No thread is available: the caller's thread does the work.
   }
 }
 
@@ -52,7 +52,7 @@ void WriterThread::run() {
     changed_.wait(lock, [this] { return isOver_ || !jobs_.empty(); });
     if (jobs_.empty()) return;
     if (!failure_ && !thrown_) {
-      const Job& job = jobs_.front();  // stays in its place while others are added
+      const Job& job = jobs_.front();  // a deque keeps it in place while others are added
       lock.unlock();
       doJob(job);
       lock.lock();

@@ -1,5 +1,5 @@
-// WriterThread: does jobs in order on a thread of its own, so that the next frame computes while files of the
-// last are written.
+// WriterThread: runs jobs in order on a thread of its own, so that the next frame is computed while files of
+// the last are written.
 #pragma once
 
 #include <condition_variable>
@@ -15,33 +15,34 @@
 
 namespace ringlet {
 
-/// Handed to by one thread. Where the system has no thread to give, jobs are done as they are handed over.
+/// Jobs are handed over by one thread. If the system can start no thread, jobs run as they are handed over.
 class WriterThread {
  public:
   using Job = std::function<Status()>;
 
-  /// At most `room` jobs, from 1 up, wait beside the one being done: that bounds the memory they hold.
+  /// At most `room` jobs, 1 or more, wait beside the running one, which limits the memory they hold.
   explicit WriterThread(std::size_t room);
-  /// Does what was handed over.
+  /// Runs the remaining jobs.
   ~WriterThread();
   WriterThread(const WriterThread&) = delete;
   WriterThread& operator=(const WriterThread&) = delete;
 
-  /// Hands a job over; waits while there is no room. The failure of an earlier job comes back here, and what
-  /// an earlier job threw is thrown; after either no job is done any more.
+  /// Adds a job; waits while there is no room. Returns the error of an earlier job, and rethrows what an
+  /// earlier job threw; after either no further job runs.
   Status hand(Job job);
-  /// Waits until all jobs are done, and tells of failures as hand does. What jobs wrote may be read after it.
+  /// Waits until all jobs are done; returns and throws errors as hand does. Afterwards the jobs' results may
+  /// be read.
   Status finish();
 
  private:
   void run();
-  void doJob(const Job& job);  // notes how it failed
-  Status outcome() const;      // needs the lock, or no thread
+  void doJob(const Job& job);  // stores how it failed
+  Status outcome() const;      // needs the lock, or that no thread runs
 
   const std::size_t room_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<Job> jobs_;  // the first is being done
+  std::deque<Job> jobs_;  // the first one is running
   bool isOver_ = false;
   std::optional<Error> failure_;
   std::exception_ptr thrown_;
