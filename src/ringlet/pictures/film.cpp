@@ -18,18 +18,18 @@ constexpr OtherProgram kFfmpeg{"ffmpeg", "films are made", "ffmpeg"};
 
 struct Kind {
   const char* extension;
-  std::vector<std::string> options;  // of what is written
+  std::vector<std::string> options;  // for the encoder
 };
 
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all = {
-      // Players want even sizes, and to be told which colours.
+      // Players need even sizes and the colour space.
       {".mp4",
        {"-c:v", "libx264", "-crf", "17", "-pix_fmt", "yuv420p", "-vf",
         "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709", "-colorspace", "bt709",
         "-color_primaries", "bt709", "-color_trc", "bt709", "-movflags", "+faststart", "-f", "mp4"}},
       {".webp", {"-c:v", "libwebp_anim", "-q:v", "80", "-loop", "0", "-f", "webp"}},
-      // Two hundred colours of its own for each film.
+      // A palette of its own for each film.
       {".gif", {"-filter_complex", "split[a][b];[a]palettegen[p];[b][p]paletteuse", "-f", "gif"}},
   };
   return all;
@@ -55,7 +55,7 @@ Result<Film> Film::start(const std::filesystem::path& path, int width, int heigh
   if (Status can = checkReplaceable(path); !can) return can.error();
   const std::filesystem::path partial = path.string() + ".partial";
   std::error_code ignored;
-  std::filesystem::remove(partial, ignored);  // ffmpeg would write through a symbolic link of that name
+  std::filesystem::remove(partial, ignored);  // ffmpeg would follow a symbolic link of that name
   std::vector<std::string> arguments = {"-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24"};
   for (std::string each :
        {std::string("-video_size"), fmt::format("{}x{}", width, height), std::string("-framerate"),
@@ -63,7 +63,7 @@ Result<Film> Film::start(const std::filesystem::path& path, int width, int heigh
     arguments.push_back(std::move(each));
   const std::vector<std::string>& options = kindOf(path)->options;
   arguments.insert(arguments.end(), options.begin(), options.end());
-  arguments.push_back("file:" + partial.string());  // whatever stands before a colon in it
+  arguments.push_back("file:" + partial.string());  // "file:" protects a colon in the path
   auto ffmpeg = ProgramInput::start(kFfmpeg, arguments);
   if (!ffmpeg) return ffmpeg.error();
   return Film(path, partial, std::move(*ffmpeg));

@@ -1,4 +1,5 @@
-// Film: pictures one after the other in one file, which ffmpeg makes. It is FILE.partial until it is whole.
+// Film: a video file, which ffmpeg makes from pictures one after another. It is called FILE.partial until it
+// is whole.
 #pragma once
 
 #include <cstddef>
@@ -10,9 +11,9 @@
 
 namespace ringlet {
 
-/// Whether the name is a film's: .mp4, .webp or .gif.
+/// Whether the name has the ending of a film: .mp4, .webp or .gif.
 bool isFilm(const std::filesystem::path& path);
-/// Whether films can be made here. The error says what to install, or what else can be asked for.
+/// Whether films can be made here. The error says what to install or which other output to ask for.
 Status checkFilms();
 
 class Film {
@@ -21,9 +22,9 @@ class Film {
   static Result<Film> start(const std::filesystem::path& path, int width, int height, double framesPerSecond);
   Film(Film&&) = default;
   Film& operator=(Film&&) = delete;
-  ~Film();  // removes a film that was not finished
+  ~Film();  // removes an unfinished film
 
-  /// Rows from the top, of red, green and blue bytes.
+  /// Rows from the top, each pixel three bytes: red, green, blue.
   Status add(std::span<const std::byte> pixels) { return ffmpeg_.write(pixels); }
   Status finish();
 
@@ -31,7 +32,7 @@ class Film {
   Film(std::filesystem::path path, std::filesystem::path partial, ProgramInput ffmpeg)
       : path_(std::move(path)), partial_(std::move(partial)), ffmpeg_(std::move(ffmpeg)) {}
 
-  std::filesystem::path path_, partial_;  // the second empty where it was moved from, or is done
+  std::filesystem::path path_, partial_;  // partial_ is empty after a move or when done
   ProgramInput ffmpeg_;
 };
 

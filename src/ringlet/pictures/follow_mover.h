@@ -1,4 +1,4 @@
-// FollowMover: moves hairs that follow strands into a pose of these, and hands back where they are.
+// FollowMover: moves hairs that follow strands to a pose of the strands, and returns their points.
 #pragma once
 
 #include <functional>
@@ -14,8 +14,8 @@ namespace ringlet {
 
 class FollowPlan;
 
-/// Of strands, in their groom's unit and order; one pose a body, or none, as if there were no bodies; and
-/// FollowPlan::rootsAt.
+/// A pose of the strands, in their groom's unit and order; with one pose per body, or none, in which case
+/// bodies are left out; and with FollowPlan::rootsAt.
 struct StrandsPose {
   std::span<const Vec3f> points;
   std::span<const BodyPose> bodies{};
@@ -25,11 +25,11 @@ struct StrandsPose {
 class FollowMover {
  public:
   virtual ~FollowMover() = default;
-  /// `hairs`: all of their points, hair after hair, in the groom's unit.
+  /// `hairs`: receives the points of all hairs, hair after hair, in the groom's unit.
   virtual Status move(const StrandsPose& pose, std::span<Vec3f> hairs) = 0;
 };
 
-/// The plan lives as long as what is made. `bodies`: that hairs stay out of.
+/// The plan must outlive what is made. `bodies`: hairs are kept out of them.
 using FollowMoverMaker =
     std::function<Result<std::unique_ptr<FollowMover>>(const FollowPlan& plan, std::span<const Body> bodies)>;
 

@@ -14,7 +14,7 @@
 namespace ringlet {
 namespace {
 
-// A pose whose strands are longer or shorter than this as a whole is one of another groom, or in another
+// A pose in which a strand is longer or shorter by more than this factor is of another groom, or in another
 // unit.
 constexpr double kMostLonger = 3;
 

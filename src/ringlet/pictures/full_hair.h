@@ -1,4 +1,4 @@
-// FullHair: hairs that follow strands (FollowPlan), as a groom that is moved.
+// FullHair: hairs that follow strands (FollowPlan), as a groom in the strands' present pose.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ namespace ringlet {
 
 class FullHair {
  public:
-  /// As FollowPlan::make. `bodies`: that hairs stay out of where their strands do.
+  /// As FollowPlan::make. `bodies`: hairs are kept out of them as far as their strands are.
   static Result<FullHair> make(const Groom& rest, double metresPerUnit, const FollowOptions& options,
                                const FollowMoverMaker& makeMover, std::span<const Body> bodies = {},
                                const HairGround& ground = {}, const CutList& cuts = {});
@@ -28,17 +28,17 @@ class FullHair {
   /// As FollowPlan::rootsAt.
   std::vector<Vec3d> rootsAt(double t, const HeadPose& head) const { return plan_->rootsAt(t, head); }
 
-  /// The hairs, in the pose that was followed last, in the strands' unit.
+  /// The hairs in the last pose given to follow, in the strands' unit.
   const Groom& groom() const { return groom_; }
-  /// Of each hair, the strand that it follows.
+  /// The strand that each hair follows.
   std::vector<std::uint32_t> strandOf() const;
-  /// Where hairs are cut as the strands are cut that they follow.
+  /// The hairs' cuts that result from cuts of the strands they follow.
   CutList cutsOfHairs(const CutList& cuts) const;
 
  private:
   FullHair() = default;
 
-  std::unique_ptr<FollowPlan> plan_;  // stays where it is: the mover refers to it
+  std::unique_ptr<FollowPlan> plan_;  // its address must not change: the mover refers to it
   std::unique_ptr<FollowMover> mover_;
   Groom groom_;
 };

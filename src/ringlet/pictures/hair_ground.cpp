@@ -31,7 +31,7 @@ Result<HairGround> hairGroundOf(const SceneHairs& hairs, const HeadScalp* scalp,
 }
 
 Result<HairGround> hairGroundOf(const LoadedScene& scene, const HairLook& look) {
-  // Roots that move beside the head leave the scalp.
+  // With root shifts, roots move relative to the head and leave the scalp.
   const bool isCarried = scene.scalp && scene.rootShifts.empty();
   return hairGroundOf(scene.hairs, isCarried ? &*scene.scalp : nullptr, look, scene.groom.metresPerUnit);
 }

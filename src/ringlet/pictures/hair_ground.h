@@ -1,4 +1,4 @@
-// HairGround: what hairs that follow strands stand on, and how they differ from strand to strand.
+// HairGround: the surface that following hairs stand on, and factors that differ from strand to strand.
 #pragma once
 
 #include <memory>
@@ -12,20 +12,21 @@
 
 namespace ringlet {
 
-/// What it refers to must outlive what is planned with it.
+/// Everything it refers to must outlive plans made with it.
 struct HairGround {
-  std::shared_ptr<const TriangleMesh> mesh{};    // that roots are on, in the groom's axes [m]; or none
-  const HeadScalp* scalp = nullptr;              // whose mesh it is; it carries roots, else the head does
-  std::span<const float> densities{}, clumps{};  // factors of each strand; empty: all 1
+  std::shared_ptr<const TriangleMesh> mesh{};    // surface of the roots, in the groom's axes [m]; or none
+  const HeadScalp* scalp = nullptr;              // the scalp with this mesh, which carries roots; null: the
+                                                 // head carries them
+  std::span<const float> densities{}, clumps{};  // factor for each strand; empty: all 1
 };
 
-/// Of a scene. `scalp`: that carries the strands' roots, or none. A mesh that `look` names comes first, then
-/// that of a body, then the scalp's.
+/// The ground of a scene. `scalp`: the one that carries the strands' roots, or null. The mesh is the one that
+/// `look` names; if none, that of a body; if none, the scalp's.
 Result<HairGround> hairGroundOf(const SceneHairs& hairs, const HeadScalp* scalp, const HairLook& look,
                                 double metresPerUnit);
 Result<HairGround> hairGroundOf(const LoadedScene& scene, const HairLook& look);
 
-/// Without a scene.
+/// The ground without a scene.
 Result<HairGround> hairGroundOf(const HairLook& look, double metresPerUnit);
 
 }  // namespace ringlet

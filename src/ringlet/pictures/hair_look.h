@@ -1,4 +1,4 @@
-// HairLook: how hairs that follow strands differ from them.
+// HairLook: how following hairs differ from their strands.
 #pragma once
 
 #include <filesystem>

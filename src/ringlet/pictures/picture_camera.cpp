@@ -8,7 +8,8 @@
 namespace ringlet {
 namespace {
 
-constexpr double kTravels = 2;  // hair that needs so much more room than a frame of it: the camera goes along
+constexpr double kTravels = 2;  // if all frames need this factor more room than one frame, the camera moves
+                                // along with the hair
 
 double radiusOf(const Bounds& bounds) { return bounds.diagonal() / 2; }
 
@@ -35,7 +36,7 @@ Camera PictureCamera::at(double frame, double turned, const Bounds& here) const 
     return {view.eye, view.target, view.up, view.fieldOfView};
   }
   std::vector<Vec3d> shown = outline_.points();
-  if (radiusOf(*all_) > kTravels * largest_) {  // the camera goes along
+  if (radiusOf(*all_) > kTravels * largest_) {  // the camera moves along
     const Vec3d middle = here.middle(), half = Vec3d{1, 1, 1} * (largest_ / std::sqrt(3.0));
     shown = {middle - half, middle + half};
   }

@@ -1,5 +1,5 @@
-// PictureCamera: from where an animation's pictures are taken: a camera that shows all its frames, or one of
-// the scene's.
+// PictureCamera: the camera of an animation's pictures: one that shows all of its frames, or one of the
+// scene's.
 #pragma once
 
 #include <optional>
@@ -13,32 +13,33 @@
 
 namespace ringlet {
 
-/// About points in units of `metresPerUnit`, at least one, and so much beyond [m].
+/// The box of at least one point, in units of `metresPerUnit`, enlarged by `margin` [m].
 Bounds boundsOf(std::span<const Vec3f> points, double metresPerUnit, double margin);
 
 struct PictureCameraChoice {
-  CameraPlace place;                    // about the hair
-  double orbit = 0;                     // that it goes round from the first frame to the last [rad]
-  std::optional<LoadedCamera> ofScene;  // in place of both
+  CameraPlace place;                    // relative to the hair
+  double orbit = 0;                     // angle that the camera moves around the hair from the first frame to
+                                        // the last [rad]
+  std::optional<LoadedCamera> ofScene;  // if set, it replaces both
 };
 
 class PictureCamera {
  public:
-  /// `up`: of the world, Y or Z; `aspect`: of a picture, its width over its height. Of a scene's camera:
-  /// where its head is.
+  /// `up`: of the world, Y or Z; `aspect`: width over height of a picture. `head`: motion of the head, for a
+  /// scene's camera.
   PictureCamera(const PictureCameraChoice& choice, Vec3d up, double aspect, const Motion* head,
                 double framesPerSecond)
       : choice_(choice), up_(up), aspect_(aspect), head_(head), framesPerSecond_(framesPerSecond) {}
 
-  /// Every frame from the first to the last: its points [m], and the box about them.
+  /// Call for every frame from the first to the last: its points, and their box [m].
   void see(std::span<const Vec3f> points, double metresPerUnit, const Bounds& box);
 
-  /// At a frame, from 1, or a share of one before; `turned`: the share of the orbit that is behind it;
-  /// `here`: the box about the hair then. After all frames were seen.
+  /// The camera at a frame, which counts from 1 and may be fractional. `turned`: share of the orbit done;
+  /// `here`: the hair's box at that time. Call after all frames were seen.
   Camera at(double frame, double turned, const Bounds& here) const;
 
-  const Bounds& all() const { return *all_; }        // about every frame
-  double largestRadius() const { return largest_; }  // of a frame's box [m]
+  const Bounds& all() const { return *all_; }        // the box of all frames
+  double largestRadius() const { return largest_; }  // of the box of one frame [m]
 
  private:
   PictureCameraChoice choice_;

@@ -1,4 +1,4 @@
-// PictureFiles: where pictures go: a PNG or EXR file a frame, a film, or panels of one PNG.
+// PictureFiles: where pictures are written: a PNG or EXR file for each frame, a film, or panels of one PNG.
 #pragma once
 
 #include <filesystem>
@@ -14,26 +14,26 @@
 
 namespace ringlet {
 
-/// Whether the name is one picture's: .png or .exr.
+/// Whether the name has the ending of a picture: .png or .exr.
 bool isPicture(const std::filesystem::path& path);
 
 struct PictureTarget {
-  std::filesystem::path path;   // one picture's or a film's name; else a folder for frame.0001.png and so on
-  bool isExr = false;           // of a folder
+  std::filesystem::path path;   // file name of a picture or film; else a folder for frame.0001.png and so on
+  bool isExr = false;           // the files of a folder
   double framesPerSecond = 24;  // of a film
-  std::optional<PictureLegend> legend{};  // of all but EXR files
-  int panels = 0;                         // above 0: so many pictures are side by side in the one of `path`
-  std::function<Status(int frame, Picture picture)> take{};  // in place of files
+  std::optional<PictureLegend> legend{};  // drawn into all but EXR files
+  int panels = 0;                         // above 0: number of pictures that are put side by side into one
+  std::function<Status(int frame, Picture picture)> take{};  // receives pictures in place of files
 };
 
 class PictureFiles {
  public:
-  /// Makes the folder they are in. `size`: of all pictures. Errors: it cannot be made; films cannot.
+  /// Makes the folder. `size`: of every picture. Errors: the folder cannot be made; films cannot be made.
   static Result<PictureFiles> open(const PictureTarget& target, const PictureSize& size);
 
-  /// What the renderer has drawn, as the picture of a frame.
+  /// Writes what the renderer has drawn as the picture of a frame.
   Status write(int frame, const HairRenderer& renderer);
-  /// A film, or a picture of panels, is whole then.
+  /// Completes a film or a picture of panels.
   Status finish();
 
   int count() const { return count_; }

@@ -10,13 +10,13 @@
 namespace ringlet {
 namespace {
 
-constexpr std::size_t kFewestGuides = 100, kMostGuides = 10000;  // of a head of hair
+constexpr std::size_t kFewestGuides = 100, kMostGuides = 10000;  // number of guides of a head of hair
 constexpr int kUsualHairs = 30000;                               // of a head
-constexpr int kLockHairs = 300;                                  // of a strand among few
-constexpr double kLockRadius = 0.0025;                           // likewise, at the root [m]
-constexpr std::size_t kLockPoints = 2000000;                     // at most, of all locks
+constexpr int kLockHairs = 300;                                  // number of hairs for each of a few strands
+constexpr double kLockRadius = 0.0025;                           // of these locks, at the root [m]
+constexpr std::size_t kLockPoints = 2000000;                     // most points of all locks together
 
-// What is shown unasked. No hairs: the strands themselves.
+// The defaults for this number of strands. hairCount 0: the strands themselves are shown.
 struct UsualHairs {
   FollowOptions options;
   double width;  // at the root [m]

@@ -1,5 +1,5 @@
-// PictureHair: what is drawn of an animation's strands, on the device: hairs that follow them, or the strands
-// themselves.
+// PictureHair: what is drawn for an animation's strands, on the device: hairs that follow them, or the
+// strands themselves.
 #pragma once
 
 #include <cstdint>
@@ -19,43 +19,42 @@
 
 namespace ringlet {
 
-/// As a person asked; what they left open is chosen by the number of strands.
+/// The user's choices. What is left open is chosen by the number of strands.
 struct PictureHairChoice {
-  std::optional<int> hairs;     // that follow the strands; 0: the strands themselves
+  std::optional<int> hairs;     // number of following hairs; 0: the strands themselves
   std::optional<double> width;  // diameter at the root [m]
-  HairLook look;                // of hairs that follow
+  HairLook look;                // of following hairs
 };
 
 class PictureHair {
  public:
-  /// `rest`: the strands as they were groomed, in units of `metresPerUnit`; `first`: frame 1 of them;
-  /// `bodies`: that hairs stay out of. Errors: the two do not belong together; the device has too little
-  /// memory.
+  /// `rest`: the strands as groomed, in units of `metresPerUnit`; `first`: the strands in frame 1; `bodies`:
+  /// hairs are kept out of them. Errors: `rest` and `first` do not match; the device has too little memory.
   static Result<PictureHair> create(const ComputeDevice& device, const Groom& rest, const Groom& first,
                                     double metresPerUnit, const PictureHairChoice& choice,
                                     std::span<const Body> bodies = {}, const HairGround& ground = {},
                                     const CutList& cuts = {});
 
-  /// The strands of the next moment, in their unit, one pose a body, and rootsAt; of the strands' cuts those
-  /// up to `frame` are made. Nothing may be under way.
+  /// Sets the next pose: the strands' points in their unit, one pose per body, and rootsAt; cuts of strands
+  /// up to `frame` are applied. The device must be idle.
   Status setPose(std::span<const Vec3f> points, std::span<const BodyPose> bodies = {},
                  std::span<const Vec3d> roots = {}, int frame = 1);
   /// As FollowPlan::rootsAt.
   std::vector<Vec3d> rootsAt(double t, const HeadPose& head) const {
     return plan_ ? plan_->rootsAt(t, head) : std::vector<Vec3d>();
   }
-  /// How the head has turned since the rest pose.
+  /// The rotation of the head relative to the rest pose.
   Quatd headOf(std::span<const Vec3f> points) const;
-  /// Moves what follows to the pose; its stage is "follow".
+  /// Records moving the following hairs to the pose; the stage is called "follow".
   void record(gpu::CommandList& list, Quatd head) const;
 
   const gpu::Buffer& points() const { return hairs_ ? hairs_->points() : lines_->points(); }
   const std::vector<std::uint32_t>& firstPoint() const {
     return hairs_ ? hairs_->firstPoint() : lines_->firstPoint();
   }
-  /// Of the strands [m]: three coordinates and anything.
+  /// The strands' points [m]: x, y, z and an unused number.
   const gpu::Buffer& strandPoints() const { return hairs_ ? hairs_->pose() : lines_->points(); }
-  /// Of each hair, the strand that it is or follows.
+  /// The strand that each hair follows or is.
   std::vector<std::uint32_t> strandOf() const;
   const std::vector<Vec3d>& restRoots() const { return restRoots_; }  // [m]
   std::vector<Vec3d> rootsOf(std::span<const Vec3f> points) const;    // [m]
@@ -74,7 +73,7 @@ class PictureHair {
   std::vector<Vec3d> restRoots_;
   CutList cuts_;
   std::optional<FollowPlan> plan_;
-  std::optional<FollowStage> hairs_;  // one of the two
+  std::optional<FollowStage> hairs_;  // either this or lines_
   std::optional<StrandPoints> lines_;
 };
 

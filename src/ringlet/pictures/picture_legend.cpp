@@ -18,13 +18,13 @@ constexpr int kLetterHeight = 7, kAdvance = 6;  // [dots], of Picture::drawText
 
 int widthOf(std::string_view text, int dot) { return (kAdvance * static_cast<int>(text.size()) - 1) * dot; }
 
-// sRGB of linear light.
+// Encodes linear light as sRGB.
 std::uint8_t encoded(double light) {
   const double x = light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
   return static_cast<std::uint8_t>(std::lround(255 * std::clamp(x, 0.0, 1.0)));
 }
 
-// From 0 to 1 over the scale. Pigments are mixed, so colours mix by their logarithms.
+// The colour at this share of the scale. Pigments are mixed, so logarithms of colours are interpolated.
 Colour colourAt(double share) {
   const std::vector<Vec3d> colours = scaleColours();
   const double at = share * static_cast<double>(colours.size() - 1);

@@ -1,4 +1,4 @@
-// PictureLegend: a bar of colours in the lower left corner of pictures, with what its ends stand for.
+// PictureLegend: a colour bar in the lower left corner of a picture, labelled with the values at its ends.
 //
 //     STRETCH
 //     [blue .. green .. yellow .. red]
@@ -12,10 +12,10 @@
 namespace ringlet {
 
 struct PictureLegend {
-  std::string title, end;  // above the bar; what the last colour stands for
+  std::string title, end;  // text above the bar; value of the last colour
 };
 
-/// In letters that grow with the picture's height. In one too narrow for its words parts are left out.
+/// Letters grow with the picture's height. Parts that do not fit the picture's width are left out.
 void drawLegend(const PictureLegend& legend, Picture& picture);
 
 }  // namespace ringlet

@@ -16,8 +16,9 @@
 namespace ringlet {
 namespace {
 
-constexpr double kBelowRoots = 0.985;  // skin under hair, which is not simulated to touch it
-constexpr double kPlaneShare = 6;      // side of a plane that is shown, over the hair's size
+constexpr double kBelowRoots = 0.985;  // radius of the drawn skin relative to the roots' ball; hair is not
+                                       // simulated to touch it
+constexpr double kPlaneShare = 6;      // side of a drawn plane relative to the hair's size
 
 Vec3d meanOf(std::span<const Vec3d> points) {
   Vec3d sum;

@@ -43,7 +43,7 @@ Result<ProgramInput> ProgramInput::start(const OtherProgram& program,
   for (std::string& argument : all) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
 
-  // Ctrl-C is for this program, which then ends what it writes.
+  // A process group of its own: Ctrl-C must reach only this program, which then completes its output.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
@@ -60,7 +60,7 @@ Result<ProgramInput> ProgramInput::start(const OtherProgram& program,
     close(ends[1]);
     return fail(code);
   }
-  std::signal(SIGPIPE, SIG_IGN);  // where it ends before it has read all
+  std::signal(SIGPIPE, SIG_IGN);  // the other program may end before it has read everything
   return ProgramInput(program, process, ends[1]);
 }
 

@@ -1,5 +1,4 @@
-// ProgramInput: another program, started to read from its standard input what this one writes: gnuplot,
-// ffmpeg.
+// ProgramInput: starts another program, such as gnuplot or ffmpeg, and writes to its standard input.
 #pragma once
 
 #include <sys/types.h>
@@ -14,27 +13,27 @@
 namespace ringlet {
 
 struct OtherProgram {
-  const char* name;     // as it is found on the path
-  const char* does;     // "plots are drawn"
-  const char* package;  // Debian's
+  const char* name;     // to be searched on the path
+  const char* does;     // what it is for, such as "plots are drawn"
+  const char* package;  // of Debian
 };
 
-/// Whether it can be found. The error says what to install.
+/// Fails if it is not found; the error says what to install.
 Status checkInstalled(const OtherProgram& program);
 
 class ProgramInput {
  public:
-  /// What the program says stands on standard error. Errors: it is not installed, or cannot be started.
+  /// The program's messages go to standard error. Errors: it is not installed, or cannot be started.
   static Result<ProgramInput> start(const OtherProgram& program, const std::vector<std::string>& arguments);
   ProgramInput(ProgramInput&& other) noexcept;
   ProgramInput& operator=(ProgramInput&&) = delete;
   ~ProgramInput() { end(); }
 
-  /// Errors: the program has ended before it read all.
+  /// Errors: the program ended before it had read everything.
   Status write(std::span<const std::byte> bytes);
-  /// Where it was not finished: stops it, whatever it has done so far.
+  /// Stops the program if it has not finished.
   void end();
-  /// Waits until it has done its work. Errors: it says that it could not.
+  /// Waits until it has finished. Errors: it reports a failure.
   Status finish();
 
  private:

@@ -19,20 +19,20 @@
 namespace ringlet {
 namespace {
 
-constexpr double kShutter = 0.5;         // share of a frame that is seen in it
-constexpr double kFollowMargin = 0.02;   // of hairs beside the strands they follow [m]
+constexpr double kShutter = 0.5;         // exposure time as a share of a frame
+constexpr double kFollowMargin = 0.02;   // of following hairs around their strands [m]
 constexpr double kStrandMargin = 0.001;  // of strands [m]
-constexpr double kGroundShare = 25;      // radius of the ground over the hair's
+constexpr double kGroundShare = 25;      // radius of the ground relative to the hair's
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-double cpuNow() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }  // of all threads
+double cpuNow() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }  // CPU time of all threads
 
-// A frame of the strands, in their file's unit.
+// The strands' points in a frame, in their file's unit.
 using Points = std::vector<Vec3f>;
 
-// What is drawn, and in which world.
+// What is drawn, and its coordinates.
 struct Subject {
   const Groom& strands;
   double metresPerUnit;
@@ -51,8 +51,8 @@ class Rendering {
         camera_(plan.camera, subject.up, static_cast<double>(plan.size.width) / plan.size.height,
                 plan.scene ? &plan.scene->motion : nullptr, subject.framesPerSecond) {}
 
-  /// `first`: frame 1, which hairs follow as if it were at rest, unless the plan has the strands at rest.
-  /// Then every frame is seen, and then it is made ready.
+  /// `first`: frame 1, which hairs take as the rest pose, unless the plan has the strands at rest. After
+  /// start, call see for every frame and then prepare.
   Status start(const Groom& first, const CutList& cuts = {});
   void see(const Points& points);
   Status prepare(PictureFiles& files);
@@ -74,9 +74,9 @@ class Rendering {
   PictureSolids solids_;
   std::optional<HairRenderer> renderer_;
   std::optional<StrandColours> colours_;
-  std::optional<gpu::Recorder> recorder_;  // the last to be made, the first to end
+  std::optional<gpu::Recorder> recorder_;  // made last and destroyed first
   PictureFiles* files_ = nullptr;
-  std::vector<Vec3d> lowestRoots_;                               // of the frame in which they are
+  std::vector<Vec3d> lowestRoots_;                               // in the frame in which they are lowest
   double lowest_ = std::numeric_limits<double>::infinity();      // of hair, along the up axis [m]
   double lowestRoot_ = std::numeric_limits<double>::infinity();  // of roots, on average
   RenderOutcome outcome_;
@@ -164,7 +164,7 @@ Status Rendering::prepare(PictureFiles& files) {
   return {};
 }
 
-// `share`: of the way from the frame before.
+// `share`: of the way from the frame before to this one.
 Status Rendering::drawMoment(int frame, double share, const Points& before, const Points& points,
                              bool isFirst) {
   Points pose = points;
@@ -201,7 +201,7 @@ Status Rendering::drawFrame(int frame, const Points& before, const Points& point
     if (Status drawn = drawMoment(frame, share, before, points, k == 0); !drawn) return drawn;
     for (const auto& [stage, milliseconds] : recorder_->stageMilliseconds()) stages[stage] += milliseconds;
   }
-  // The first frame compiles kernels.
+  // The first frame is not counted, since it compiles kernels.
   if (files_->count() <= 1) seconds_ = cpuSeconds_ = measured_ = 0, outcome_.stages.clear();
   seconds_ += now() - start;
   cpuSeconds_ += cpuNow() - cpuStart;
@@ -236,7 +236,7 @@ std::vector<int> framesOf(const RenderPlan& plan) {
 Result<RenderOutcome> renderAnimation(const std::filesystem::path& animation, const ComputeDevice& device,
                                       const RenderPlan& asked) {
   const double start = now();
-  // Once for what the camera must show, and once for the pictures.
+  // Read once to find what the camera must show, and once for the pictures.
   auto seen = AnimationReader::open(animation), drawn = AnimationReader::open(animation);
   if (!seen) return seen.error();
   if (!drawn) return drawn.error();

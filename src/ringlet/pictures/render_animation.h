@@ -1,4 +1,4 @@
-// Pictures of an animation: frames are read, hair follows them on the device, is drawn, and written.
+// Renders an animation: frames are read, hair follows them on the device, is drawn, and pictures are written.
 #pragma once
 
 #include <filesystem>
@@ -23,45 +23,44 @@ namespace ringlet {
 
 /// A ground under everything.
 struct Ground {
-  std::optional<double> height;  // along the up axis [m]; none: of the lowest point of all frames
+  std::optional<double> height;  // along the up axis [m]; none: that of the lowest point of all frames
 };
 
 struct RenderPlan {
   PictureTarget target;                // framesPerSecond: that of the animation
-  int firstFrame = 1, lastFrame = 0;   // of the animation; the last 0: all there are
-  bool isSheet = false;                // at most six of these, evenly chosen, as panels of one picture
-  const Groom* rest = nullptr;         // the strands as they were groomed; none: frame 1
-  const LoadedScene* scene = nullptr;  // whose bodies are shown; none: a head where roots are on a ball
+  int firstFrame = 1, lastFrame = 0;   // of the animation; lastFrame 0: its end
+  bool isSheet = false;                // at most six of these, evenly spaced, as panels of one picture
+  const Groom* rest = nullptr;         // the strands as groomed; null: frame 1
+  const LoadedScene* scene = nullptr;  // its bodies are shown; null: a head if roots lie on a ball
   bool showsSolids = true;
   std::optional<Ground> ground;
   PictureHairChoice hair;
   PictureSize size;
   Look look;
-  std::optional<StrandColourChoice> colours;  // in place of the look's
+  std::optional<StrandColourChoice> colours;  // in place of the look's hair colour
   PictureCameraChoice camera;
   int moments = 1;                    // of a frame, over the half of it before its end: motion blur
-  std::function<bool()> isStopped{};  // asked before each picture: whether to end early
-  std::function<void(int finished, int count)> progress{};  // before the first, and after each
+  std::function<bool()> isStopped{};  // called before each picture; true: end early
+  std::function<void(int finished, int count)> progress{};  // called before the first picture and after each
 };
 
-/// Seconds are means over frames, but for the first, which compiles kernels; where there is only one, of
-/// that.
+/// Mean seconds a frame, without the first, which compiles kernels, unless it is the only one.
 struct RenderOutcome {
   int frameCount = 0;
   std::size_t strandCount = 0, hairCount = 0, pointCount = 0;
   double width = 0;                                    // [m]
-  double secondsPerFrame = 0, cpuSecondsPerFrame = 0;  // of setting and drawing; not of files
+  double secondsPerFrame = 0, cpuSecondsPerFrame = 0;  // moving and drawing hair; without files
   double startSeconds = 0;                             // reading for the camera, planning hair, compiling
   std::map<std::string, double> stages;                // on the device [ms a frame]
   std::uint64_t deviceBytes = 0;
-  bool showsHead = false;              // that is none of the scene's bodies
+  bool showsHead = false;              // a head is drawn that is no body of the scene
   std::optional<double> groundHeight;  // [m]
   bool interrupted = false;
   std::vector<std::filesystem::path> outputs;  // the first and the last
   std::vector<std::string> warnings;
 };
 
-/// Pictures that are finished stay, whatever comes. Fails with one sentence.
+/// Finished pictures are kept even after an error. An error is one sentence.
 Result<RenderOutcome> renderAnimation(const std::filesystem::path& animation, const ComputeDevice& device,
                                       const RenderPlan& plan);
 

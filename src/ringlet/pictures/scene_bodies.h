@@ -1,4 +1,4 @@
-// Where a scene's bodies, and roots of hairs, are in a frame of an animation that was simulated from it.
+// The poses of a scene's bodies, and the roots of its hairs, in a frame of an animation simulated from it.
 #pragma once
 
 #include <vector>
@@ -9,12 +9,12 @@
 
 namespace ringlet {
 
-/// At the end of a frame, from 1, or a share of one before; one pose a body, in the world.
+/// At the end of a frame, which counts from 1 and may be fractional: one pose per body, in the world.
 inline std::vector<BodyPose> bodiesAtFrame(const LoadedScene& scene, double frame) {
   return SceneFrames(scene).bodiesAt(frame);
 }
 
-/// Where roots of hairs (FullHair, PictureHair) are then, in the world; none where no scalp carries them.
+/// The roots of hairs (FullHair, PictureHair) at that time, in the world; empty if no scalp carries them.
 template <class Hair>
 std::vector<Vec3d> hairRootsAtFrame(const LoadedScene& scene, const Hair& hair, double frame) {
   const double seconds = SceneFrames(scene).secondsAt(frame);

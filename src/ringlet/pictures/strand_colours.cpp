@@ -23,7 +23,8 @@ constexpr StrandScale kScales[] = {
     {"error", "how far the strand's farthest particle is from the other run", 0.01, "m"},
 };
 
-// In [0, 1), as if by chance: generated roots follow a rule, which multiples of one number would show.
+// A pseudo-random number in [0, 1): generated roots follow a pattern, which multiples of one number would
+// show.
 float placeOf(std::size_t strand) {
   std::uint32_t x = static_cast<std::uint32_t>(strand) * 0x9e3779b9u + 1;
   x = (x ^ x >> 16) * 0x7feb352du;

@@ -1,10 +1,9 @@
-// StrandColours: pictures in which the colour of hair is a number of its strand (--colour stretch, contacts,
+// StrandColours: pictures in which a number of each strand gives its colour (--colour stretch, contacts,
 // strand, error).
 //
-//     frame -> a number of each strand -> over what the last colour stands for, in [0, 1] -> pigments of
-//     hairs
+//     frame -> a number of each strand -> over the number of the last colour, in [0, 1] -> pigments of hairs
 //
-// Stretch is found on the device, where the strands are.
+// Stretch is computed on the device, where the strands are.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +27,8 @@ namespace ringlet {
 /// What may be shown in place of a hair colour.
 struct StrandScale {
   const char* name;
-  const char* effect;  // what of a strand
-  double most;         // that the last colour stands for, where nothing says it; 0: it is no scale
+  const char* effect;  // meaning of the number, of a strand
+  double most;         // default for the number of the last colour; 0: the number is no scale
   const char* unit;    // "1" or "m"
 
   /// "blue 0, red 5 % and more: EFFECT".
@@ -37,40 +36,41 @@ struct StrandScale {
   /// "5 %".
   std::string withUnit(double number) const;
 };
-/// None for another name.
+/// Null for an unknown name.
 const StrandScale* strandScaleNamed(std::string_view name);
 std::string strandScaleNames();  // separated by commas
 
 struct StrandColourChoice {
   const StrandScale* scale = nullptr;
-  double most = 0;                // that the last colour stands for
-  std::filesystem::path against;  // the other animation, of "error"
+  double most = 0;                // number of the last colour
+  std::filesystem::path against;  // the other animation, for "error"
 };
 
 class StrandColours {
  public:
-  /// `rest`: the strands at rest, whose unit is `metresPerUnit`; `scene`: whose material and contacts they
-  /// have, or null. Buffers of `hair` and `renderer` are kept. Errors: the animation to compare with cannot
-  /// be read or is of other strands.
+  /// `rest`: the strands at rest, with unit `metresPerUnit`; `scene`: gives their material and contacts, or
+  /// null. Buffers of `hair` and `renderer` must outlive this. Errors: the animation to compare with cannot
+  /// be read or has other strands.
   static Result<StrandColours> create(const StrandColourChoice& choice, const ComputeDevice& device,
                                       const Groom& rest, double metresPerUnit, const LoadedScene* scene,
                                       const PictureHair& hair, HairRenderer& renderer);
 
-  /// The pigments that hairs differ by.
+  /// The pigments between which the scale interpolates.
   static std::vector<Absorption> pigmentsOf(const StrandScale& scale);
 
-  /// Of a later frame than before, from 1; `points` of its strands, in their unit. Nothing may be under way.
+  /// Sets the numbers of a frame, which counts from 1 and must be later than the last; `points`: of the
+  /// strands, in their unit. The device must be idle.
   Status setFrame(HairRenderer& renderer, int frame, std::span<const Vec3f> points);
-  /// After the strands are where they are drawn, before they are drawn. Ends with a barrier.
+  /// Call between moving and drawing the strands. Ends with a barrier.
   void record(gpu::CommandList& list) const;
 
  private:
-  using Numbers = Result<std::vector<float>>;  // one a strand
+  using Numbers = Result<std::vector<float>>;  // one per strand
   StrandColours() = default;
 
   double most_ = 1;
   std::vector<std::uint32_t> strandOf_;
-  std::optional<StretchColours> stretch_;  // one of the two
+  std::optional<StretchColours> stretch_;  // either this or numbers_
   std::function<Numbers(int frame, std::span<const Vec3f> points)> numbers_;
 };
 
