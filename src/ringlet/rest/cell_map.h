@@ -1,5 +1,5 @@
-// CellMap: a value of each cell of a grid by the cell's key, in one piece of memory. A map of the standard
-// library allocates every cell by itself, which took most of the time where densities at rest are summed.
+// CellMap: maps keys of a grid's cells to values, in one block of memory. A standard map allocates each cell
+// by itself, which took most of the time where densities at rest are summed.
 #pragma once
 
 #include <bit>
@@ -14,7 +14,7 @@ namespace ringlet {
 template <class Value>
 class CellMap {
  public:
-  /// The value of a cell; `otherwise` where it has none yet, which it then has.
+  /// The value of a cell; a cell without a value first gets `otherwise`.
   Value& at(std::uint64_t key, Value otherwise) {
     if (2 * used_ >= slots_.size()) grow();
     Slot& slot = slots_[slotOf(key)];
@@ -24,13 +24,13 @@ class CellMap {
     }
     return slot.value;
   }
-  /// Null where the cell has none.
+  /// Null if the cell has no value.
   const Value* find(std::uint64_t key) const {
     if (slots_.empty()) return nullptr;
     const Slot& slot = slots_[slotOf(key)];
     return slot.key == key ? &slot.value : nullptr;
   }
-  /// Forgets all values and keeps the memory.
+  /// Removes all values and keeps the memory.
   void clear() {
     slots_.assign(slots_.size(), {});
     used_ = 0;
@@ -43,7 +43,7 @@ class CellMap {
     Value value{};
   };
 
-  // The next free slot where cells share one. Knuth, "Sorting and Searching", 1973: multiplicative hashing.
+  // Linear probing. Knuth, "Sorting and Searching", 1973: multiplicative hashing.
   std::size_t slotOf(std::uint64_t key) const {
     const std::size_t mask = slots_.size() - 1;
     std::size_t slot = key * 0x9e3779b97f4a7c15u >> (64 - std::countr_zero(slots_.size()));
@@ -57,7 +57,7 @@ class CellMap {
       if (slot.key != kNoKey) slots_[slotOf(slot.key)] = slot;
   }
 
-  std::vector<Slot> slots_;  // a power of two, at most half of them used
+  std::vector<Slot> slots_;  // their number is a power of two; at most half are used
   std::size_t used_ = 0;
 };
 

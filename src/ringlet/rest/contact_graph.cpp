@@ -16,7 +16,7 @@ void dropWeak(std::vector<StrandOverlap>& overlaps, int minOverlaps) {
                 [&](const StrandOverlap& o) { return o.count < static_cast<std::uint32_t>(minOverlaps); });
 }
 
-// A strand's neighbours from strongest to weakest; what is beyond the bound marks its pair.
+// Marks the pairs that are beyond maxNeighbours for one of their strands, ordered from strongest to weakest.
 void keepStrongest(std::vector<StrandOverlap>& overlaps, const RestState& rest, int maxNeighbours) {
   struct End {
     std::uint32_t strand, count, otherInGroom, overlap;
@@ -52,7 +52,8 @@ std::uint64_t sumOfCounts(std::span<const StrandOverlap> overlaps) {
                          [](std::uint64_t sum, const StrandOverlap& o) { return sum + o.count; });
 }
 
-// Overlaps come by a, then b: a strand meets first those below it, then those above, each ascending.
+// Overlaps are sorted by a, then b, so each strand gets first the neighbours below it, then those above, each
+// ascending.
 void connect(ContactGraph& graph, std::span<const StrandOverlap> overlaps, std::size_t strandCount) {
   graph.firstNeighbour.assign(strandCount + 1, 0);
   for (const StrandOverlap& o : overlaps) ++graph.firstNeighbour[o.a + 1], ++graph.firstNeighbour[o.b + 1];

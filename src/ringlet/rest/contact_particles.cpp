@@ -15,7 +15,7 @@
 namespace ringlet {
 namespace {
 
-// Roots closer than this on average [m] stand in one place: no radius is smaller.
+// Roots closer than this on average [m] count as being in one place; no radius is smaller.
 constexpr double kSmallestRadius = 1e-6;
 
 std::span<const Vec3f> pointsOf(const RestState& rest, std::size_t strand) {
@@ -36,7 +36,7 @@ double meanEdgeLength(const RestState& rest) {
   return sum / static_cast<double>(edgeCount);
 }
 
-// The particles that stay, and the largest distance of two of them in a row [m].
+// The particles that are kept, and the largest distance between consecutive ones [m].
 struct Pruned {
   std::vector<std::uint32_t> kept;
   double widestGap = 0;
@@ -55,7 +55,7 @@ Pruned pruneAlong(std::span<const Vec3f> points, double radius, double spacing) 
     if (apart < spacing * R) continue;
     if (apart > R && j - 1 > last) {
       keep(j - 1);
-      --j;  // and see how far j is from there
+      --j;  // and measure again from there
     } else {
       keep(j);
     }
@@ -98,7 +98,8 @@ ContactParticles chooseContactParticles(const RestState& rest, const ContactSett
     Pruned pruned = pruneAlong(points, radius, settings.spacing);
     const bool hasGaps = pruned.widestGap > 2.0 * radius;
     widestGap = std::max(widestGap, pruned.widestGap);
-    // Every turn raises the radius to half of another edge: they end, and after one or two as a rule.
+    // Each turn raises the radius to half the length of another edge, so the loop ends, usually after one or
+    // two turns.
     while (settings.fillGaps && pruned.widestGap > 2.0 * radius) {
       radius = roundedUp(pruned.widestGap / 2);
       pruned = pruneAlong(points, radius, settings.spacing);

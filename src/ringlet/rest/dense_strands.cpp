@@ -17,15 +17,15 @@
 namespace ringlet {
 namespace {
 
-// tell(i, mass) of each particle of a strand.
+// Calls tell(i, mass) for each particle of a strand.
 template <class Tell>
 void eachParticle(const RestState& rest, const layout::StrandRest& strand, Tell&& tell) {
   for (std::uint32_t i = strand.firstParticle; i < strand.firstParticle + strand.particleCount; ++i)
     tell(i, double(rest.particles[i].mass) * strand.massUnit);
 }
 
-// Of each strand, in strands like itself. Masses are added in device order by one thread: the order of a sum
-// is in its bits.
+// The density of each strand, in multiples of the density of the strand alone. One thread adds masses in
+// device order, since the order of a sum changes its bits.
 std::vector<double> strandDensities(const RestState& rest, double cell, unsigned threadCount) {
   DensityGrid all(cell);
   for (const layout::StrandRest& strand : rest.strands)
@@ -50,18 +50,18 @@ std::vector<double> strandDensities(const RestState& rest, double cell, unsigned
   return densities;
 }
 
-// The first of all strands that `s` hangs together with.
+// The representative of the group of `s` (union-find with path halving).
 std::uint32_t firstOf(std::vector<std::uint32_t>& groups, std::uint32_t s) {
   while (groups[s] != s) s = groups[s] = groups[groups[s]];
   return s;
 }
 
-// Groups of strands in `isIn` that share cells.
+// Joins strands in `isIn` that share cells into groups.
 std::vector<std::uint32_t> joinedThroughCells(const RestState& rest, const std::vector<bool>& isIn,
                                               double cell) {
   std::vector<std::uint32_t> groups(rest.strands.size());
   std::iota(groups.begin(), groups.end(), 0u);
-  CellMap<std::uint32_t> someStrand;  // of each cell
+  CellMap<std::uint32_t> someStrand;  // a strand in each cell
   for (std::uint32_t s = 0; s < rest.strands.size(); ++s) {
     if (!isIn[s]) continue;
     eachParticle(rest, rest.strands[s], [&](std::uint32_t i, double) {
@@ -74,7 +74,7 @@ std::vector<std::uint32_t> joinedThroughCells(const RestState& rest, const std::
   return groups;
 }
 
-// Of groups whose median is not dense enough, each strand becomes one of its own.
+// Dissolves groups whose median density is not high enough: each of their strands becomes a group of its own.
 void keepDenseGroups(std::span<const double> densities, DenseStrands& dense) {
   std::map<std::uint32_t, std::vector<double>> byGroup;
   for (std::size_t s = 0; s < densities.size(); ++s)

@@ -1,4 +1,4 @@
-// DensityGrid: density of particles at a place, by trilinear weights on a grid of cells. For densities at
+// DensityGrid: density of particles at a place, with trilinear weights on a grid of cells. For densities at
 // rest; those of a step are computed on the device (shaders/kernels/volume_gather.comp).
 #pragma once
 
@@ -37,7 +37,7 @@ class DensityGrid {
     });
     return sum / (cell_ * cell_ * cell_);
   }
-  /// Forgets all masses and keeps the memory.
+  /// Removes all masses and keeps the memory.
   void clear() { nodes_.clear(); }
 
  private:
@@ -66,7 +66,7 @@ class DensityGrid {
   }
 
   double cell_;
-  CellMap<double> nodes_;  // mass at each [kg]
+  CellMap<double> nodes_;  // mass at each node [kg]
 };
 
 }  // namespace ringlet

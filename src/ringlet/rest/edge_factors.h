@@ -1,4 +1,4 @@
-// EdgeFactors: what profiles multiply the constants of a particle's edge by.
+// EdgeFactors: the factors by which profiles multiply the constants of a particle's edge.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ struct EdgeFactors {
   float unused[2];
 };
 
-// Kernels read it as one of the records that it lies behind.
+// Kernels read it as a ParticleRest, behind which it is stored.
 static_assert(sizeof(EdgeFactors) == sizeof(layout::ParticleRest) &&
               offsetof(EdgeFactors, stretchDamping) == offsetof(layout::ParticleRest, stretchRestLength) &&
               offsetof(EdgeFactors, bendDamping) == offsetof(layout::ParticleRest, mass) &&

@@ -14,7 +14,7 @@
 namespace ringlet {
 namespace {
 
-// All strands in the order of a rest state's, those that are rigid among the others of their length.
+// All strands of the groom in the order of the rest state; rigid strands are inserted by their length.
 std::vector<std::uint32_t> orderOf(const RestState& rest, const Groom& groom) {
   std::vector<std::uint32_t> order = rest.strandInGroom;
   for (const auto* others : {&rest.rigid, &rest.elsewhere})
@@ -57,7 +57,7 @@ Result<LiveMaterial> LiveMaterial::create(const RestState& rest, const Material&
   if (!base) return base.error();
   for (RestState* state : {&*loaded, &*base}) {
     if (rest.elsewhere.empty() && rest.haloCount == 0) break;
-    std::vector<std::uint32_t> places(state->groomStrandCount), kept;  // device order of the whole
+    std::vector<std::uint32_t> places(state->groomStrandCount), kept;  // device order of the whole groom
     for (std::uint32_t s = 0; s < state->strands.size(); ++s) places[state->strandInGroom[s]] = s;
     for (const std::uint32_t s : rest.strandInGroom) kept.push_back(places[s]);
     const std::size_t here = hereCount(rest);

@@ -1,5 +1,5 @@
-// LiveMaterial: a material that changes while hair moves. Springs' constants are a law of the material; rest
-// targets hold gravity's load over the stiffness, so they follow by the ratio of stiffnesses.
+// LiveMaterial: a material that changes while hair moves. Springs' constants follow from the material; rest
+// targets contain gravity's load divided by the stiffness, so they follow by the ratio of stiffnesses.
 #pragma once
 
 #include <span>
@@ -16,20 +16,20 @@
 
 namespace ringlet {
 
-/// The first number that differs and may not change while hair moves, as a material file names it; "" for
-/// none. What may: the stiffnesses, dampings, the core's blend, the variation.
+/// The first number that differs and must not change while hair moves, by its name in a material file; "" for
+/// none. Stiffnesses, dampings, the blend of the core and the variation may change.
 std::string fixedDifference(const Material& a, const Material& b);
 
 class LiveMaterial {
  public:
-  /// `rest`: as it was built with this material and these settings; `jacobi` only. Cost: two rest states
-  /// more.
+  /// `rest`: as it was built with this material and these settings; needs `jacobi`. Cost: that of two more
+  /// rest states.
   static Result<LiveMaterial> create(const RestState& rest, const Material& material,
                                      const Settings& settings);
 
-  /// The same rest state with another material that differs in nothing fixed: sets the springs of `strands`,
-  /// all in device order, and gives all particles. What is printed of it for the user: `warnings`. Cost: a
-  /// pass over particles in float, and a few numbers a strand.
+  /// The same rest state with another material without a fixedDifference: sets the springs of `strands` and
+  /// returns all particles, both in device order. `warnings`: sentences for the user. Cost: a pass over
+  /// particles in float, and a few numbers a strand.
   std::vector<layout::ParticleRest> with(const Material& material, std::span<layout::StrandRest> strands,
                                          std::vector<std::string>& warnings) const;
 
@@ -37,11 +37,11 @@ class LiveMaterial {
   struct Strand {
     StrandGeometry geometry;
     StrandConstants built{};
-    double load = 0, stiffest = 1;  // of the preload, and of the bend stiffness profile
+    double load = 0, stiffest = 1;  // of the preload; largest factor of the bend stiffness profile
     std::uint32_t strandInGroom = 0, firstParticle = 0, particleCount = 0;
   };
 
-  // What it takes from a particle's target and its edge's rest length.
+  // What gravity's load subtracts from a particle's target and its edge's rest length.
   struct Load {
     layout::vec3 bend;
     float stretch = 0;
@@ -50,7 +50,7 @@ class LiveMaterial {
   Settings settings_;
   double lineDensity_ = 0;
   std::vector<Strand> strands_;                  // device order
-  std::vector<layout::ParticleRest> particles_;  // without load
+  std::vector<layout::ParticleRest> particles_;  // without the load
   std::vector<Load> loads_;
 };
 

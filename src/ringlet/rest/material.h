@@ -1,8 +1,8 @@
-// Material: what a hair is made of, in continuum units, so that it means the same however finely a strand is
-// cut. Stiffnesses are multiples of the strand's own weight w = lambda g S [N] (line density, standard
-// gravity, rest arc length): a stiffness of 5 means "5 w", whatever the strand's length. The laws that turn
-// them into constants per edge are in rest/strand_constants.h and, independently, in reference/. What each
-// number does and its range: rest/material_parameters.h.
+// Material: the properties of hair, in continuum units, so that they do not depend on how finely a strand is
+// divided into edges. Stiffnesses are multiples of the strand's own weight w = lambda g S [N] (line density,
+// standard gravity, rest arc length): a stiffness of 5 means "5 w", whatever the strand's length.
+// rest/strand_constants.h and, independently, reference/ turn them into constants per edge. For the effect
+// and range of each number see rest/material_parameters.h.
 #pragma once
 
 #include <algorithm>
@@ -18,15 +18,15 @@
 
 namespace ringlet {
 
-/// A factor that changes from root to tip: straight lines from point to point, level before the first point
-/// and after the last.
+/// A factor along a strand, from root to tip: linear between points, constant before the first and after the
+/// last.
 struct Profile {
   struct Point {
     double s = 0;  // share of the strand's rest arc length, 0 at the root, 1 at the tip
     double factor = 1;
     bool operator==(const Point&) const = default;
   };
-  std::vector<Point> points{};  // by rising s; none: 1 everywhere
+  std::vector<Point> points{};  // with rising s; empty: 1 everywhere
 
   double at(double s) const {
     if (points.empty()) return 1;
@@ -55,8 +55,8 @@ struct Profile {
   }
 };
 
-/// How strands differ from one another: a strand's value is the material's times a factor drawn evenly from
-/// 1 - share to 1 + share, by seed and the strand's index in groom order.
+/// How strands differ from one another: a strand's value is the material's times a factor drawn uniformly
+/// from 1 - share to 1 + share, by the seed and the strand's index in groom order.
 struct MaterialVariation {
   double bendStiffness = 0;     // share, 0 for none
   double coreStiffness = 0;     // share
@@ -67,10 +67,10 @@ struct MaterialVariation {
 
 struct Material;
 
-/// What a strand's factor may be.
+/// Range of a strand's factor.
 inline constexpr double kLeastStrandFactor = 0.001, kMostStrandFactor = 1000;
 
-/// Neighbouring strands of one factor, in groom order from 0.
+/// Consecutive strands with one factor; indices in groom order, from 0.
 struct StrandRun {
   std::uint32_t first = 0, last = 0;
   float factor = 1;
@@ -80,7 +80,7 @@ struct StrandRun {
 /// A factor on one number of a material, for some strands; the others have 1.
 struct StrandFactors {
   double Material::*number = nullptr;
-  std::shared_ptr<const std::vector<StrandRun>> runs{};  // there are some; rising, none over another
+  std::shared_ptr<const std::vector<StrandRun>> runs{};  // not null; sorted, without overlaps
 
   double of(std::size_t strand) const {
     const auto next = std::upper_bound(runs->begin(), runs->end(), strand,
@@ -103,25 +103,26 @@ struct Material {
   double coreDampingRatio = 0.25;    // zeta in C_c = 4 zeta alpha_c sqrt(K_c lambda)
   double coreRelaxedShare = 0.25;   // the core's constants at rest length, as a share of those when elongated
   double coreElongationLow = 1.0;   // core elongation (current / rest length) at which it begins to stiffen
-  double coreElongationHigh = 1.1;  // and at which it has its full constants
-  double gravityFactor = 1;  // on the gravity that acts; the preload balances its share of a factor of 1
-  double inertiaFactor = 1;  // on the inertial force of a head that travels, not of one that turns
+  double coreElongationHigh = 1.1;  // core elongation at which it has its full constants
+  double gravityFactor = 1;         // multiplies gravity; the preload balances gravity for a factor of 1
+  double inertiaFactor = 1;  // multiplies the inertial force of a head that travels, not of one that turns
   std::optional<double> bendSmoothingLength{};  // alpha_b [m]; unset: from the rest curl; 0: raw curve
   std::optional<double> coreSmoothingLength{};  // alpha_c [m]; unset: as above
 
-  // Root to tip; dampings that are ratios go on with the root of the stiffness.
+  // Along the strand. Damping that is given as a ratio scales with the square root of the stiffness.
   Profile bendStiffnessProfile{};        // on K_b
-  Profile bendDampingRatioProfile{};     // on C_b, beside what K_b's does
+  Profile bendDampingRatioProfile{};     // on C_b, in addition to the effect of K_b
   Profile stretchStiffnessProfile{};     // on K_s
   Profile stretchDampingTimeProfile{};   // on C_s / K_s
   Profile coreStiffnessProfile{};        // on K_c
   Profile coreDampingRatioProfile{};     // on zeta
   Profile lineDensityProfile{};          // on lambda
   MaterialVariation variation{};         // from strand to strand
-  std::vector<StrandFactors> factors{};  // likewise, as maps say; of one number they multiply
+  std::vector<StrandFactors> factors{};  // also from strand to strand, from maps; factors on one number
+                                         // multiply
   bool operator==(const Material&) const = default;
 
-  /// Whether some spring has other factors along the strand than bending's stiffness.
+  /// Whether edges have other factors along the strand than that of the bend stiffness.
   bool hasEdgeProfiles() const {
     return !(bendDampingRatioProfile.points.empty() && stretchStiffnessProfile.points.empty() &&
              stretchDampingTimeProfile.points.empty() && coreStiffnessProfile.points.empty() &&
@@ -129,12 +130,11 @@ struct Material {
   }
 };
 
-/// The material of one strand: the groom's with the strand's own variation and factors worked in, and none
-/// left. strandIndex: in groom order. The same seed and index give the same strand, whatever other strands
-/// there are.
+/// The material of one strand: the groom's, with the strand's variation and factors applied and removed.
+/// strandIndex: in groom order. The same seed and index give the same strand, independently of other strands.
 inline Material materialOfStrand(const Material& material, std::size_t strandIndex) {
   const MaterialVariation& variation = material.variation;
-  // A stream apart from grooms, which draw by small seeds too.
+  // A random stream of its own: grooms draw from streams with small seeds too.
   constexpr std::uint64_t kStream = std::uint64_t{1} << 40;
   SeededRandom random(kStream + variation.seed, strandIndex);
   auto factor = [&](double share) { return 1 + share * random.between(-1, 1); };

@@ -10,9 +10,9 @@
 namespace ringlet {
 namespace {
 
-constexpr double kMiddle = 0.5;  // share of the arc length up to which the root's dial acts, and the tip's
+constexpr double kMiddle = 0.5;  // share of the arc length at which the root's dial ends and the tip's begins
 
-// What two factors do together, at every point of either and in the middle.
+// The product of two profiles, with the points of both and one in the middle.
 Profile product(const Profile& a, const Profile& b) {
   std::vector<double> places;
   for (const Profile* profile : {&a, &b})

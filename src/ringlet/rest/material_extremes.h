@@ -15,13 +15,13 @@ namespace ringlet {
 struct MaterialExtremes {
   std::size_t cappedStrands = 0;
   double smallestCoreShare = 1;
-  std::size_t unstableStrands = 0;  // strands whose bending gains energy, since the step is too long
+  std::size_t unstableStrands = 0;  // strands whose bending gains energy because the step is too long
   double longestCalmStep = 1;       // [s]
   std::size_t overloadedStrands = 0;
   double largestLoad = 0;
   std::size_t largestLoadStrand = 0;
 
-  /// `stiffest`: the largest factor of its bend stiffness profile; `load`: the largest of its preload.
+  /// `stiffest`: largest factor of its bend stiffness profile; `load`: largest load of its preload.
   void add(const StrandConstants& strand, double stiffest, double load, std::size_t groomIndex,
            const Settings& settings);
 
@@ -30,11 +30,10 @@ struct MaterialExtremes {
                                     const Settings& settings) const;
 };
 
-/// The longest outer step without a warning about this strand, whose bend stiffness profile is at most
-/// `stiffest` [s].
+/// The longest outer step without a warning about this strand [s]. `stiffest`: as for add.
 double longestCalmStepOf(const StrandConstants& strand, double stiffest);
 
-/// Number of steps per frame of which each is at most this long [s].
+/// Number of steps per frame such that each is at most this long [s].
 int stepsOf(double longestStep, const Settings& settings);
 
 }  // namespace ringlet

@@ -19,11 +19,11 @@
 namespace ringlet {
 namespace {
 
-constexpr const char* kFromRest = "rest";  // for a length that is measured on the rest curl
+constexpr const char* kFromRest = "rest";  // in place of a length: measured on the rest curl
 
 constexpr const char* kWhat = "a material";
 
-// The table of that key below another: "dials" or "material.dials".
+// The name of a table below another: "dials" or "material.dials".
 std::string below(const std::string& table, const char* key) { return KnownKey{table, key}.fullName(); }
 
 // "straight, wavy, ...; did you mean NAME?"
@@ -34,7 +34,7 @@ std::string presetsNear(std::string_view word) {
                      nearest < names.size() ? fmt::format("; did you mean {}?", names[nearest]) : "");
 }
 
-// Walks a table.
+// Reads the keys of a table.
 class MaterialReader {
  public:
   MaterialReader(const std::string& name, TomlProblems& problems) : name_(name), problems_(problems) {}
@@ -48,7 +48,7 @@ class MaterialReader {
       readNumbers(*table, below(name_, "variation"), variationParameters(), loaded.material.variation);
     if (const toml::table* table = tableOf(file, "profile")) readProfiles(*table, loaded.material);
 
-    // What one line alone does not show: the two elongations.
+    // Problems that involve several lines: the two elongations.
     if (problems_.empty()) {
       if (Status status = checkMaterial(loaded.material); !status) {
         const toml::node* high = file.get("core_elongation_high");
@@ -160,7 +160,7 @@ void writeNumbers(std::string& text, std::span<const Parameter<Owner>> parameter
   }
 }
 
-// Those that are not the default, under a heading.
+// Writes the numbers that differ from the default, under a heading.
 template <class Owner>
 void writeOthers(std::string& text, const std::string& heading, std::span<const Parameter<Owner>> parameters,
                  const Owner& owner) {

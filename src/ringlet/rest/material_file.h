@@ -26,27 +26,29 @@
 
 namespace ringlet {
 
-/// What a file holds. The dials are as it says them, not yet worked into the material.
+/// The content of a file. The dials are not yet applied to the material.
 struct LoadedMaterial {
   Material material;
   MaterialDials dials;
   std::vector<std::string> warnings;  // numbers that are allowed but unusual, a sentence each
 };
 
-/// Errors, each with file and line, what was found and what was expected: no file or no TOML, a key nobody
-/// knows (with the nearest known one), a value of another type or out of its range. Of several the topmost.
+/// Errors, each with file and line, what was found and what was expected: no such file or not TOML; an
+/// unknown key (with the nearest known one); a value of another type or out of its range. If there are
+/// several, the topmost is reported.
 Result<LoadedMaterial> readMaterial(const std::filesystem::path& path);
 
-/// The same from text; `name` stands for the file in messages.
+/// The same from text; `name` is the file's name in messages.
 Result<LoadedMaterial> parseMaterial(std::string_view text, const std::string& name);
 
-/// A preset by its name, or a file by a name that ends in .toml.
+/// Loads a preset by its name, or a file if the name ends in .toml.
 Result<LoadedMaterial> loadMaterial(const std::string& presetOrFile);
 
-/// Whether loadMaterial takes a name for a file's.
+/// Whether loadMaterial treats the name as that of a file.
 bool isMaterialFile(const std::filesystem::path& name);
 
-/// TOML with every number, its unit, effect and ranges beside it; parseMaterial gives back the same bits.
+/// TOML with every number and, as comments, its unit, effect and ranges; parseMaterial gives back the same
+/// bits.
 std::string materialText(const Material& material, const MaterialDials& dials = {});
 
 /// Writes materialText. Errors: as for writeWholeFile; numbers that could not be read back.

@@ -10,7 +10,8 @@ namespace ringlet {
 namespace {
 
 constexpr std::size_t kMostProfilePoints = 256;  // as many as a long strand has particles
-constexpr double kLeastElongationGap = 1e-6;     // between low and high, for the smoothstep between them
+constexpr double kLeastElongationGap = 1e-6;     // between low and high, so that the smoothstep between them
+                                                 // is defined
 
 template <class Owner>
 Status checkNumbers(std::span<const Parameter<Owner>> parameters, const Owner& owner, const char* table) {
@@ -23,7 +24,7 @@ Status checkNumbers(std::span<const Parameter<Owner>> parameters, const Owner& o
   return {};
 }
 
-// What a number becomes by all factors on it. It changes only where some run begins or has ended.
+// Checks the product of all factors on each number. It changes only where a run of strands begins or ends.
 Status checkFactors(const Material& material) {
   for (const Parameter<Material>& parameter : materialParameters()) {
     const auto* member = std::get_if<double Material::*>(&parameter.member);
@@ -335,7 +336,7 @@ std::vector<std::string> unusualNumbers(const Material& material, const Material
     }
   }
 
-  // Varied damping is lowest at the end of its range.
+  // With variation, the damping is lowest at the lower end of its range.
   const double varied = material.bendDampingRatio * (1 - material.variation.bendDampingRatio);
   if (varied < kLeastBendDampingRatio && material.bendDampingRatio >= kLeastBendDampingRatio) {
     sentences.push_back(fmt::format(

@@ -12,10 +12,10 @@ struct Preset {
   Material material;
 };
 
-// Chosen so that the hanging curl (radius 1 cm, 8 turns, 25 cm, no preload) bounces at the frequency named,
-// and so that neither core nor bending asks for more than 4 steps per 24 Hz frame: T sqrt(K / lambda) / alpha
-// <= 3 for 2 to 24 turns on 25 cm. Bend stiffness stays above 2 w: below it a
-// preloaded groom is bent by more than 27 degrees where it lies across gravity.
+// Chosen such that the hanging curl (radius 1 cm, 8 turns, 25 cm, no preload) bounces at the frequency named,
+// and that neither core nor bending needs more than 4 steps per 24 Hz frame: T sqrt(K / lambda) / alpha <= 3
+// for 2 to 24 turns on 25 cm. Bend stiffness stays above 2 w: below it, a preloaded groom is bent by more
+// than 27 degrees where it lies across gravity.
 std::span<const Preset> presets() {
   static const Preset all[] = {
       {"straight",

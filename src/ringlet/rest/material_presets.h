@@ -1,4 +1,4 @@
-// What an artist starts from: materials by name. What turns them: rest/material_dials.h.
+// Materials by name, for artists to start from. Dials adjust them: rest/material_dials.h.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace ringlet {
 /// straight, wavy, loose_curl, ringlet, coil: from straight hair to the tightest curls.
 std::vector<std::string> presetNames();
 
-/// Nothing for a name that is none of presetNames().
+/// None for a name that is not in presetNames().
 std::optional<Material> materialPreset(std::string_view name);
 
 /// What it looks like, in a sentence or two; empty for an unknown name.

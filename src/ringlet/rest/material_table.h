@@ -1,5 +1,5 @@
 // A material as a table of a larger file, read and written with the keys of a material file. Private to the
-// library: it shows toml++.
+// library, since it includes toml++.
 #pragma once
 
 #include <string>
@@ -10,12 +10,12 @@
 
 namespace ringlet {
 
-/// Every key a material may have, below a table of that name ("" for a file of its own).
+/// All keys of a material, below a table of that name ("" for a file of its own).
 std::vector<KnownKey> knownMaterialKeys(const std::string& table);
 
 /// Reads the keys of a table into a material. Numbers without a key keep their values; the key `preset`
-/// replaces all. Unknown keys are ignored at the table's own level, since other readers may know them, and
-/// are problems in its sub-tables. Adds no warnings.
+/// replaces all of them. Unknown keys at the table's own level are ignored, since other readers may know
+/// them; in its sub-tables they are problems. Adds no warnings.
 void readMaterialTable(const toml::table& table, const std::string& name, LoadedMaterial& loaded,
                        TomlProblems& problems);
 

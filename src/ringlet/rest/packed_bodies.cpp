@@ -11,7 +11,7 @@
 namespace ringlet {
 namespace {
 
-constexpr double kEndless = 1e15;  // [m]: a plane's bounds; its square is still a float
+constexpr double kEndless = 1e15;  // bounds of a plane [m]; its square is a finite float
 
 static_assert(std::uint32_t(DeviceForm::box) == layout::kShapeBox &&
               std::uint32_t(DeviceForm::plane) == layout::kShapePlane &&
@@ -44,7 +44,8 @@ layout::BodyRest restOf(const Body& body, std::uint32_t firstCell) {
   return rest;
 }
 
-// Of each cell its eight corners, as gridDistance (shaders/equations/body_distance.glsl) wants them.
+// Adds the eight corners of each cell, in the layout that gridDistance reads
+// (shaders/equations/body_distance.glsl).
 void addCells(const DistanceGrid& grid, std::vector<layout::uvec4>& cells) {
   const float cell = static_cast<float>(grid.cell);
   const auto half = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {

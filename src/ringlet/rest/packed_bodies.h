@@ -11,7 +11,8 @@ namespace ringlet {
 
 struct PackedBodies {
   std::vector<layout::BodyRest> rests;  // one per body
-  std::vector<layout::uvec4> cells;     // of all grids: a cell's eight distances as halves, see gridDistance
+  std::vector<layout::uvec4> cells;     // of all grids: a cell's eight distances as half floats, see
+                                        // gridDistance
 };
 
 /// The bodies must pass checkBody. Cost: linear in the cells of their grids.

@@ -20,8 +20,8 @@ namespace ringlet {
 
 /// The kinds of contact in a run.
 struct ContactKinds {
-  bool pairs = false;   // strands meet pair by pair
-  bool volume = false;  // some hair meets as a volume
+  bool pairs = false;   // strands touch pair by pair
+  bool volume = false;  // some hair is a volume
 
   bool any() const { return pairs || volume; }
 };
@@ -35,16 +35,17 @@ struct RestContacts {
 
   // About the whole groom, even if only a part of it is kept (rest/rest_part.h):
   ContactKinds kinds;
-  std::size_t particleCount = 0;       // of the solver's contact particles
-  float largestRadius = 0;             // of these [m]
-  double overlapsPerParticle = 0;      // of strands that may touch, enlarged, over all contact particles
-  std::vector<std::uint32_t> inWhole;  // of each contact particle that is kept; none: all are
+  std::size_t particleCount = 0;       // number of the solver's contact particles
+  float largestRadius = 0;             // of the solver's contact particles [m]
+  double overlapsPerParticle = 0;      // enlarged overlaps of strands that may touch, per contact particle
+  std::vector<std::uint32_t> inWhole;  // index in the whole groom of each contact particle that is kept;
+                                       // empty: all are kept
 
-  /// The contact particles by which contacts are measured.
+  /// The contact particles with which contacts are measured.
   const ContactParticles& allParticles() const { return unthinned ? *unthinned : particles; }
 
-  /// Calls tell(other, overlaps at rest) for each strand that meets `strand` pair by pair; if any two may
-  /// touch, of 1 overlap.
+  /// Calls tell(other, overlaps at rest) for each strand that `strand` may touch pair by pair; with 1 overlap
+  /// if any two may touch.
   template <class Tell>
   void eachPartner(std::uint32_t strand, const Tell& tell) const {
     if (!kinds.pairs) return;
@@ -65,7 +66,7 @@ struct RestContacts {
   std::vector<std::string> warnings() const;
 };
 
-/// The same with any number of threads. Cost: that of countOverlaps, mostly.
+/// The result does not depend on threadCount. Cost: mostly that of countOverlaps.
 RestContacts buildRestContacts(const RestState& rest, const ContactSettings& settings,
                                unsigned threadCount = coreCount());
 

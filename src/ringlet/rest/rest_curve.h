@@ -1,5 +1,5 @@
-// The smoothed curve of a strand and the frames carried along it, at rest: the same equations as the step's,
-// in double (shaders/equations/smoothing.glsl, frame.glsl), so that a hair at rest is at rest.
+// The smoothed curve of a strand at rest and the frames transported along it: the same equations as in a
+// step, in double (shaders/equations/smoothing.glsl, frame.glsl), so that a hair at rest stays at rest.
 #pragma once
 
 #include <span>

@@ -91,7 +91,7 @@ namespace {
 
 constexpr std::uint32_t kGone = 0xffffffff;
 
-// Where the strands and particles of a whole groom are in what is kept of it; device order.
+// The places of strands and particles of a whole groom in what is kept of it; device order.
 class Places {
  public:
   Places(const std::vector<layout::StrandRest>& whole, const RestHalo& halo) : places_(whole.size()) {
@@ -108,7 +108,7 @@ class Places {
   std::uint32_t particle(std::uint32_t s, std::uint32_t i) const {
     return i - places_[s].before + places_[s].first;
   }
-  // What is known of each strand, of those that are kept.
+  // The entries of kept strands from a list over all strands, in their new order.
   template <class T>
   std::vector<T> kept(const std::vector<T>& all) const {
     std::vector<T> kept(count_);
@@ -119,7 +119,7 @@ class Places {
 
  private:
   struct Place {
-    std::uint32_t strand = kGone, before = 0, first = 0;  // its first particle, before and now
+    std::uint32_t strand = kGone, before = 0, first = 0;  // its first particle, old and new
   };
   std::vector<Place> places_;
   std::uint32_t count_ = 0;

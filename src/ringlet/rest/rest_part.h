@@ -14,18 +14,17 @@
 
 namespace ringlet {
 
-/// For each strand of a groom of this number of strands: whether it is in `part`. Errors: as restrictTo.
-/// Cost: linear.
+/// Whether each of strandCount strands is in `part`. Errors: as restrictTo. Cost: linear.
 Result<std::vector<bool>> membersOf(std::span<const std::uint32_t> part, std::size_t strandCount);
 
-/// Keeps strands `here`, and after them those `around` (RestState::haloCount); device order, each once. Of
-/// the others only the rest points are kept (RestState::elsewhere). Members about the whole groom do not
-/// change. Cost: linear.
+/// Keeps the strands `here`, followed by the strands `around` (RestState::haloCount); device order, each
+/// listed once. Of the other strands only the rest points are kept (RestState::elsewhere). Members about the
+/// whole groom do not change. Cost: linear.
 void keepStrands(RestState& state, std::span<const std::uint32_t> here,
                  std::span<const std::uint32_t> around = {});
 
 /// Keeps the simulated strands that are in `part`, groom order. Errors: a strand that the groom does not
-/// have, or one that is listed twice. Cost: linear.
+/// have, or that is listed twice. Cost: linear.
 Status restrictTo(RestState& state, std::span<const std::uint32_t> part);
 
 /// The part of each strand, device order. Errors: as restrictTo; a strand that is in no part or in two.
@@ -38,10 +37,9 @@ struct RestHair {
   RestContacts& contacts;
   std::optional<RestVolume>& volume;
 };
-/// Keeps the strands that a part knows, by a halo of the whole, which then has their new numbers. Contact
-/// particles stay in the whole's order, by which searches list them, and those of a strand are not known by
-/// firstOfStrand. Of strands around the part it is not kept whom they may touch, nor what they are in the
-/// volume. Cost: linear.
+/// Keeps the strands that a part needs according to `halo`, and renumbers the halo. Contact particles stay in
+/// the order of the whole groom, since searches list them in this order; firstOfStrand is invalid. For halo
+/// strands neither contact pairs nor volume groups are kept. Cost: linear.
 void restrictTo(const RestHair& hair, RestHalo& halo);
 
 }  // namespace ringlet

@@ -20,7 +20,8 @@
 namespace ringlet {
 namespace {
 
-// Further away [m] nothing is: squares of such numbers, and of speeds between them, are still floats.
+// Points farther away [m] are refused: squares of such numbers, and of speeds between them, must be finite
+// floats.
 constexpr double kFarthest = 1e9;
 
 layout::vec3 packed3(Vec3d v) {
@@ -34,7 +35,7 @@ std::vector<Vec3f> inMetres(std::span<const Vec3f> strand, double metresPerUnit)
   return points;
 }
 
-// A strand's points in double, and its edges' arcs [m].
+// A strand's points in double, and its edges' arc lengths [m].
 struct RestCurve {
   std::vector<Vec3d> points;
   std::vector<double> arcs;
@@ -56,7 +57,7 @@ std::vector<double> middlesOf(std::span<const double> arcs, double arcLength) {
   return middles;
 }
 
-// Of the bend stiffness profile.
+// The factors of the bend stiffness profile.
 std::vector<double> bendFactorsOf(std::span<const double> middles, const Material& material,
                                   const Settings& settings) {
   std::vector<double> factors(middles.size(), 1.0);
@@ -65,7 +66,8 @@ std::vector<double> bendFactorsOf(std::span<const double> middles, const Materia
   return factors;
 }
 
-// Dampings that are ratios go on with the root of the stiffness, stretch's with the stiffness.
+// Damping of bend and core scales with the square root of the stiffness, damping of stretch with the
+// stiffness.
 std::vector<EdgeFactors> edgeFactorsOf(std::span<const double> middles, const Material& material,
                                        const Settings& settings) {
   const EdgeFactors none{{1, 1, 1}, 1, 1, 1, {}};
@@ -83,7 +85,7 @@ std::vector<EdgeFactors> edgeFactorsOf(std::span<const double> middles, const Ma
   return factors;
 }
 
-// The largest of the first of a strand of the groom.
+// The largest factor of the bend stiffness profile on a strand of the groom.
 double stiffestOf(const Groom& groom, std::size_t strand, const StrandGeometry& geometry,
                   const Material& material, const Settings& settings) {
   if (material.bendStiffnessProfile.points.empty()) return 1;
@@ -91,14 +93,14 @@ double stiffestOf(const Groom& groom, std::size_t strand, const StrandGeometry& 
   return std::ranges::max(bendFactorsOf(middlesOf(curve.arcs, geometry.arcLength), material, settings));
 }
 
-// The sizes the strand is cut into: chords, floored lengths, masses, factors of the profiles.
+// The discretisation of a strand: chords, edge lengths with a lower bound, masses, factors of the profiles.
 struct Cut : RestCurve {
   std::vector<Vec3d> edges;
   std::vector<double> edgeLengths, masses;
   std::vector<double>
-      edgeScale;  // times this, the strand's constants are the edge's: 1 / length, or 1 for `paper`
+      edgeScale;  // the edge's constants are the strand's times this: 1 / length, or 1 for `paper`
   std::vector<double> bendFactors;   // of the bend stiffness profile, at the middle of each edge
-  std::vector<EdgeFactors> factors;  // of all profiles, likewise
+  std::vector<EdgeFactors> factors;  // of all profiles, at the same places
   StrandConstants constants;
   double massUnit = 1;  // [kg]
 
@@ -137,8 +139,8 @@ struct Cut : RestCurve {
   }
 };
 
-// 1 - mu^2 of the point Jacobi iteration, mu a bound on its spectral radius: by Gershgorin, block row by
-// block row.
+// 1 - mu^2 for the point Jacobi iteration, mu being a bound on its spectral radius by Gershgorin's theorem,
+// block row by block row.
 double jacobiGap(const Cut& cut, const Settings& settings) {
   const double T = settings.stepSeconds();
   std::vector<double> coupling(cut.points.size(), 0.0);
@@ -151,15 +153,16 @@ double jacobiGap(const Cut& cut, const Settings& settings) {
     coupling[i] += edge;
     coupling[i + 1] += edge;
   }
-  double smallestShare = 1;  // of the mass in the block row: 1 - mu
+  double smallestShare = 1;  // share of the mass in a block row: 1 - mu
   for (std::size_t i = static_cast<std::size_t>(settings.rootCount); i < cut.points.size(); ++i) {
     smallestShare = std::min(smallestShare, cut.masses[i] / (cut.masses[i] + coupling[i]));
   }
   return smallestShare * (2 - smallestShare);
 }
 
-// The strand's particles, with gravity balanced edge by edge from the tip: edge i carries the weight of all
-// beyond it. `coreEdges`: the smoothed edges the core spring holds. Returns the preload's largest load.
+// Appends the strand's particles, with gravity balanced edge by edge from the tip: edge i carries the weight
+// of everything beyond it. `coreEdges`: the smoothed edges of the core spring. Returns the preload's largest
+// load.
 double appendParticles(RestState& state, const Cut& cut, std::span<const Quatd> frames,
                        std::span<const Vec3d> coreEdges, const Settings& settings) {
   const std::size_t n = cut.points.size();
@@ -215,7 +218,7 @@ void appendStrand(RestState& state, MaterialExtremes& extremes, std::span<const 
                   const Settings& settings) {
   const Cut cut(strand, geometry, material, settings);
   const StrandConstants& c = cut.constants;
-  // The device smooths with the float weights; the rest state must be at rest under exactly those.
+  // The device smooths with float weights, so the rest state must be at rest with exactly these.
   const auto frames = framesBeforeEdges(smoothEdges(cut.edges, static_cast<float>(c.bendBeta)), cut.edges[0]);
   const auto coreEdges = smoothEdges(cut.edges, static_cast<float>(c.coreBeta));
   state.strands.push_back(strandRest(cut, coreEdges, state.points.size(), settings));
@@ -231,7 +234,7 @@ void appendStrand(RestState& state, MaterialExtremes& extremes, std::span<const 
   extremes.add(c, stiffest, load, groomIndex, settings);
 }
 
-// What the motion needs [s].
+// The longest step that resolves the motion [s].
 double longestMotionStep(const Settings& settings) {
   return settings.integrator == Integrator::paper ? 1.0 / 720 : 1.0 / 192;
 }
@@ -287,7 +290,7 @@ Status checkStrand(std::span<const Vec3f> strand, std::size_t index, double metr
   return {};
 }
 
-// Checked, in groom order.
+// Checks the strands and returns their sizes, in groom order.
 Result<std::vector<StrandSize>> sizesOf(const Groom& groom) {
   std::vector<StrandSize> sizes;
   for (std::size_t s = 0; s < groom.strandCount(); ++s) {
@@ -312,15 +315,15 @@ std::vector<StrandGeometry> geometryOf(const Groom& groom, unsigned threadCount)
   return geometry;
 }
 
-// What of a groom is measured before anything is made of it; all in groom order.
+// Measurements of a groom before its rest state is made; all in groom order.
 struct Survey {
   std::vector<StrandSize> sizes;
-  std::vector<StrandGeometry> measured;  // here, where it was not known before
+  std::vector<StrandGeometry> measured;  // measured here, if not known before
   std::span<const StrandGeometry> geometry;
-  std::vector<double> longestSteps;  // that are calm, and that the motion needs; 0: too fine [s]
+  std::vector<double> longestSteps;  // longest calm step that also resolves the motion; 0: too fine [s]
   std::vector<std::uint32_t> tooFine{}, tooQuick{};
-  std::vector<bool> isRigid;   // either
-  double longestCalmStep = 1;  // of all that are simulated [s]
+  std::vector<bool> isRigid;   // either of these
+  double longestCalmStep = 1;  // over all simulated strands [s]
 };
 
 Result<Survey> surveyOf(const Groom& groom, const Material& material, const Settings& settings,
@@ -357,11 +360,11 @@ Result<Survey> surveyOf(const Groom& groom, const Material& material, const Sett
   return survey;
 }
 
-// All strands but those carried rigidly.
+// The rest state of all strands except rigid ones.
 RestState assemble(const Groom& groom, const Material& material, const Settings& settings,
                    std::span<const std::uint32_t> order, const Survey& survey, MaterialExtremes& extremes) {
   RestState state;
-  // Doubling as they grow would take up to half as much again.
+  // Growing by doubling would need up to half as much memory again.
   state.strands.reserve(groom.strandCount());
   state.particles.reserve(groom.points.size());
   state.points.reserve(groom.points.size());

@@ -19,15 +19,14 @@ double arcLength(const RestState& rest, const layout::StrandRest& strand) {
   return arc;
 }
 
-// One in so many particles of a strand is enough: they stand no further apart along it than kVolumeSpacing
-// cells.
+// Takes one particle in this many along a strand, so that they are at most kVolumeSpacing cells apart.
 std::uint32_t volumeStride(const RestState& rest, const layout::StrandRest& strand, double cell) {
   const double edge = arcLength(rest, strand) / std::max(1.0, strand.particleCount - 1.0);
   const double most = std::max(1.0, strand.particleCount / 2.0);
   return static_cast<std::uint32_t>(std::clamp(std::floor(kVolumeSpacing * cell / edge), 1.0, most));
 }
 
-// Cells of the box that all strands can reach.
+// Number of cells in the box that all strands can reach.
 std::uint64_t reachableCells(const RestState& rest, const VolumeStrands& volume, double cell) {
   constexpr double kLongest = 1.1;
   Bounds box = Bounds::none();
@@ -44,14 +43,14 @@ std::uint64_t reachableCells(const RestState& rest, const VolumeStrands& volume,
   return cells < 1e18 ? static_cast<std::uint64_t>(cells) : std::uint64_t{1} << 60;
 }
 
-// Of each strand's particles. Masses are added in device order by one thread: the order of a sum is in its
-// bits.
+// Sets the densities, strand by strand. One thread adds masses in device order, since the order of a sum
+// changes its bits.
 void setDensities(const RestState& rest, RestVolume& volume, unsigned threadCount) {
   const std::size_t count = volume.particles.size();
   const auto placeOf = [&](std::size_t k) { return rest.points[volume.particles[k]]; };
   DensityGrid all(volume.cell);
   for (std::size_t k = 0; k < count; ++k) all.add(placeOf(k), volume.masses[k]);
-  std::vector<std::size_t> firsts;  // of each strand's particles, and the end
+  std::vector<std::size_t> firsts;  // index of each strand's first particle, and the end
   for (std::size_t k = 0; k < count; ++k)
     if (k == 0 || volume.strands[k] != volume.strands[k - 1]) firsts.push_back(k);
   firsts.push_back(count);

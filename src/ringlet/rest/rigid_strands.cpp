@@ -15,11 +15,11 @@ namespace ringlet {
 namespace {
 
 constexpr double kShortShare = 0.1;         // of the median strand's length
-constexpr double kStretchTolerance = 1e-3;  // of the stretch limit
-constexpr double kShapelessRounding = 0.1;  // of the mean edge
-constexpr double kNotableRounding = 0.01;   // of an edge
+constexpr double kStretchTolerance = 1e-3;  // relative to the stretch limit
+constexpr double kShapelessRounding = 0.1;  // relative to the mean edge
+constexpr double kNotableRounding = 0.01;   // relative to an edge
 constexpr std::size_t kStrandsPerTooQuick = 100;
-constexpr double kFarMoreSteps = 2;       // times those of the others
+constexpr double kFarMoreSteps = 2;       // relative to the steps of the others
 constexpr std::size_t kNamedStrands = 5;  // in a warning
 
 // "strands 3, 17 and 2 more"
@@ -39,7 +39,7 @@ std::string counted(std::size_t count, std::size_t all) {
   return fmt::format("{} of {} strands {}", count, all, count == 1 ? "is" : "are");
 }
 
-// Of one number of all strands.
+// The median of one member over all strands.
 template <class Value>
 double medianOf(std::span<const StrandSize> sizes, Value value) {
   std::vector<double> values;
@@ -94,7 +94,8 @@ std::vector<std::uint32_t> tooQuickStrands(std::span<const StrandSize> sizes,
     if (step > 0) ordered.push_back(step);
   const std::size_t few = ordered.size() / kStrandsPerTooQuick;
   if (few == 0) return {};
-  const auto others = ordered.begin() + static_cast<std::ptrdiff_t>(few);  // the quickest of them
+  const auto others = ordered.begin() + static_cast<std::ptrdiff_t>(few);  // of the others, the one with the
+                                                                           // shortest step
   std::nth_element(ordered.begin(), others, ordered.end());
   const double bound = std::min(*others / kFarMoreSteps, stepSeconds * (1 - 1e-6));
   const double shortLength = kShortShare * medianLength(sizes);

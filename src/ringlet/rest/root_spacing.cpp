@@ -1,5 +1,5 @@
-// Implements rest/root_spacing.h by a k-d tree (Bentley 1975) that lies in the sorted points themselves: a
-// range's middle point divides it, the range left of it is below on the range's axis.
+// Implements rest/root_spacing.h with a k-d tree (Bentley 1975) stored in the sorted points themselves: a
+// range's middle point splits it; points left of it are below it on the range's axis.
 #include "ringlet/rest/root_spacing.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ class NearestPoints {
     divide(0, points_.size());
   }
 
-  // From the i-th point of the tree.
+  // Distance from the tree's i-th point to the nearest other one.
   double distanceToNearest(std::size_t i) const {
     double best = std::numeric_limits<double>::infinity();
     search(0, points_.size(), i, best);
@@ -62,12 +62,12 @@ class NearestPoints {
         coordinate(points_[self], axes_[middle]) - coordinate(points_[middle], axes_[middle]);
     const bool below = across < 0;
     below ? search(begin, middle, self, best) : search(middle + 1, end, self, best);
-    if (std::abs(across) >= best) return;  // all beyond the divide is further away
+    if (std::abs(across) >= best) return;  // all points beyond the split are farther away
     below ? search(middle + 1, end, self, best) : search(begin, middle, self, best);
   }
 
   std::vector<Vec3d> points_;
-  std::vector<int> axes_;  // each middle point divides
+  std::vector<int> axes_;  // that each middle point splits
 };
 
 }  // namespace
@@ -77,7 +77,7 @@ double meanNearestDistance(std::span<const Vec3d> points) {
   const NearestPoints nearest(points);
   std::vector<double> distances;
   for (std::size_t i = 0; i < points.size(); ++i) distances.push_back(nearest.distanceToNearest(i));
-  std::sort(distances.begin(), distances.end());  // the same sum in whatever order the points came
+  std::sort(distances.begin(), distances.end());  // makes the sum independent of the order of the points
   return std::accumulate(distances.begin(), distances.end(), 0.0) / static_cast<double>(points.size());
 }
 

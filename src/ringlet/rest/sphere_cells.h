@@ -1,12 +1,12 @@
-// SphereCells: spheres in the order of the cells of a grid, and a sweep over them that finds what overlaps.
+// SphereCells: spheres sorted by the cells of a grid, and a sweep over them that finds overlaps.
 //
-//     row of cells (x-1, y)   . . . [o o o] . .     A cell's spheres reach into the cells around it: nine
-//     rows row of cells (x,   y)   . . . [o c o] . .     of three cells, each a stretch of the order. As the
-//     sweep row of cells (x+1, y)   . . . [o o o] . .     goes on to the next cell all nine only move
-//     forward.
+//     row of cells (x-1, y)   . . . [o o o] . .
+//     row of cells (x,   y)   . . . [o c o] . .
+//     row of cells (x+1, y)   . . . [o o o] . .
 //
-// So everything is read in the order of memory and nothing is looked up: on large grooms look-ups miss every
-// cache and took most of the time.
+// A cell's spheres reach into the cells around it: nine rows of three cells, each consecutive in the sorted
+// order. As the sweep goes on to the next cell, all nine ranges only move forward. So memory is read in order
+// and nothing is looked up: on large grooms look-ups miss every cache and took most of the time.
 #pragma once
 
 #include <algorithm>
@@ -34,28 +34,28 @@ class SphereCells {
     auto operator<=>(const Cell&) const = default;
   };
 
-  /// Cells of `cellSize` from `low` on, below every sphere.
+  /// Cells have size `cellSize`; `low` is below every sphere.
   SphereCells(std::span<const Sphere> spheres, Vec3d low, double cellSize);
 
   std::size_t cellCount() const { return cells_.size(); }
 
-  /// Calls tell(sphere, other) for each sphere of the cells [begin, end) and each of `others`, in a grid of
-  /// the same cells, whose cell is the same or beside it. Of two spheres of one SphereCells one is told the
-  /// other, and none is told itself.
+  /// Calls tell(sphere, other) for each sphere in the cells [begin, end) and each of `others` (in a grid of
+  /// the same cells) in the same cell or beside it. Within one SphereCells a pair is told once, and no sphere
+  /// is paired with itself.
   template <class Tell>
   void eachNear(const SphereCells& others, std::size_t begin, std::size_t end, const Tell& tell) const;
 
  private:
   std::vector<Sphere> spheres_;
   std::vector<Cell> cells_;           // those with spheres, ascending
-  std::vector<std::uint32_t> first_;  // sphere of each cell, and the end
+  std::vector<std::uint32_t> first_;  // index of each cell's first sphere, and the end
 };
 
 template <class Tell>
 void SphereCells::eachNear(const SphereCells& others, std::size_t begin, std::size_t end,
                            const Tell& tell) const {
-  // Among themselves, rows before a cell's own have met it already, and so have the cells before it in its
-  // row.
+  // Within one SphereCells the rows before a cell's own, and the cells before it in its row, have been paired
+  // with it already.
   const bool own = &others == this;
   const int firstRow = own ? 4 : 0;
   const auto rowOf = [&](std::size_t c, int row, int z) {

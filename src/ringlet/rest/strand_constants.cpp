@@ -93,14 +93,14 @@ StrandConstants strandConstants(const StrandGeometry& geometry, const Material& 
   c.stretchDamping = material.stretchDampingTime * c.stretchStiffness;
 
   // B tanh(l / 2 alpha) / l^2 with B = 2 alpha K_b: the angle between an edge and its target grows as coth,
-  // because the target lags through the smoothing; without the tanh a curl cut finer would be stiffer.
+  // because the target lags through the smoothing; without the tanh, finer edges would make a curl stiffer.
   const double bend = material.bendStiffness * weight, alpha = c.bendSmoothingLength;
   c.bendStiffness = alpha > 0 ? 2 * alpha * bend * std::tanh(l / (2 * alpha)) / l : 2 * fromShape * bend / l;
   c.bendDamping = material.bendDampingRatio * S * std::sqrt(bend * lambda);
 
   // The core is explicit: calm up to T = 4 alpha sqrt(lambda / K_c) (tests/scenes/calm_sweep_test.cpp; at 4.4
-  // a soft curl feeds on itself), 3 where the curl changes hand (at 3.5 a soft tight one does); capped
-  // beyond.
+  // a soft curl feeds on itself), 3 where the curl changes hand (at 3.5 a soft tight one does). Stiffness is
+  // capped accordingly.
   const double coreLength = c.coreSmoothingLength > 0 ? c.coreSmoothingLength : l;
   const double calm = (geometry.hasPerversions ? 3 : 4) * coreLength;
   c.coreStiffnessAsked = material.coreStiffness * weight;

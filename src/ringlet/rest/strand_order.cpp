@@ -11,14 +11,14 @@
 namespace ringlet {
 namespace {
 
-// Cells of the Hilbert curve along an axis, 2^16: far finer than strands are apart; three numbers fit into 64
-// bits.
+// Bits of a cell index of the Hilbert curve per axis: cells are far smaller than the distances of strands,
+// and three indices fit into 64 bits.
 constexpr int kCurveBits = 16;
 
 /// Place along the Hilbert curve of a cell: Skilling, "Programming the Hilbert curve", AIP Conference
 /// Proceedings 707, 2004.
 std::uint64_t placeOnCurve(std::array<std::uint32_t, 3> x) {
-  // Undo the turns of the cubes within cubes, from the largest.
+  // Undo the rotations of nested cubes, from the largest.
   for (std::uint32_t q = 1u << (kCurveBits - 1); q > 1; q >>= 1) {
     const std::uint32_t below = q - 1;
     for (std::uint32_t& axis : x) {
@@ -62,7 +62,7 @@ std::vector<std::uint64_t> placesOnCurve(const Groom& groom) {
   const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
   const double most = (1 << kCurveBits) - 1;
   const auto cell = [&](double above) {
-    const double share = above / extent;  // points that are not finite are refused later: any cell will do
+    const double share = above / extent;  // points that are not finite are refused later, so any cell will do
     return share >= 0 && share <= 1 ? static_cast<std::uint32_t>(most * share) : 0u;
   };
   std::vector<std::uint64_t> places;

@@ -1,6 +1,6 @@
-// Implements rest/strand_overlaps.h: spheres meet in a sweep over cells (rest/sphere_cells.h), each thread
-// counts what it finds, and the counts are added strand by strand. They are integers: who found what, and
-// when, leaves no trace.
+// Implements rest/strand_overlaps.h: a sweep over cells finds overlapping spheres (rest/sphere_cells.h), each
+// thread counts what it finds, and the counts are added strand by strand. They are integers, so the result
+// does not depend on which thread finds what, or when.
 #include "ringlet/rest/strand_overlaps.h"
 
 #include <algorithm>
@@ -20,16 +20,16 @@ namespace {
 
 constexpr std::size_t kCellsPerPart = 4096;
 
-// Cells are this much larger than the largest sphere in them: by more than rounding moves a centre.
+// Cells are larger than the largest sphere in them by this factor: more than rounding moves a centre.
 constexpr double kCellMargin = 1 + 1e-6;
 
-// Cells along an axis, at most: their numbers fit into 32 bits, and rounding stays below the margin.
+// Most cells along an axis: their indices fit into 32 bits, and rounding stays below the margin.
 constexpr double kMostCells = 0x1p30;
 
 using Lists = std::vector<std::vector<StrandOverlap>>;
 
-// Counts of pairs as they are met. A pair is met by many spheres one after another; where another pair takes
-// its slot it is noted with what was counted, and may be counted on later.
+// Counts of pairs as they are found. Most of a pair's overlaps come one after another; when another pair
+// takes its slot, the count so far is noted, and counting may start again later.
 class PairCounts {
  public:
   void add(std::uint32_t a, std::uint32_t b) {
@@ -47,8 +47,8 @@ class PairCounts {
   }
 
  private:
-  static constexpr std::size_t kSlots = 1 << 15;       // 384 KB: they stay in a core's own cache
-  static constexpr std::size_t kListLength = 1 << 16;  // lists that do not grow are not copied
+  static constexpr std::size_t kSlots = 1 << 15;       // 384 KB: stays in a core's own cache
+  static constexpr std::size_t kListLength = 1 << 16;  // lists of a fixed length are never copied
 
   void note(const StrandOverlap& slot) {
     if (slot.count == 0) return;
@@ -60,8 +60,8 @@ class PairCounts {
   Lists noted_;
 };
 
-// Spheres of one size of cell, each size half the one before, so that a few large ones do not make all cells
-// large; and with them all that are smaller, which look them up.
+// Spheres of one cell size, each size half the one before, so that a few large spheres do not make all cells
+// large; and all smaller spheres in cells of the same size, which are paired with them.
 struct SizeOfCells {
   SphereCells own, smaller;
 };
@@ -89,7 +89,7 @@ std::vector<SizeOfCells> sortBySize(std::vector<Sphere> spheres, double enlargem
   return sizes;
 }
 
-// Of all threads; a pair may be in several lists, and more than once.
+// The lists of all threads; a pair may be in several lists, and several times.
 Lists meet(const std::vector<SizeOfCells>& sizes, double enlargement, unsigned threadCount) {
   Lists lists;
   std::mutex mutex;
@@ -113,12 +113,12 @@ Lists meet(const std::vector<SizeOfCells>& sizes, double enlargement, unsigned t
   return lists;
 }
 
-// What was noted of each strand with those above it, strand by strand.
+// For each strand the counts that were noted with strands of a higher index.
 struct Noted {
   struct Count {
     std::uint32_t other, count;
   };
-  std::vector<std::uint64_t> first;  // of each strand, and the end
+  std::vector<std::uint64_t> first;  // index of each strand's first count, and the end
   std::vector<Count> counts;
 
   Noted(Lists lists, std::size_t strandCount) : first(strandCount + 1) {
@@ -137,12 +137,12 @@ struct Noted {
   }
 };
 
-// One strand's counts: a counter for each other, of which only those used are cleared.
+// Adds up one strand's counts: a counter for each other strand, of which only those used are cleared.
 class OverlapRow {
  public:
   explicit OverlapRow(std::size_t strandCount) : counts_(strandCount, 0) {}
 
-  // Each other once, ascending, in the first places. Returns how many they are.
+  // Merges the counts in place: each other strand once, ascending, at the front. Returns their number.
   std::size_t add(std::span<Noted::Count> noted) {
     for (const Noted::Count& one : noted) {
       if (counts_[one.other] == 0) touched_.push_back(one.other);
@@ -172,7 +172,7 @@ std::vector<StrandOverlap> countOverlaps(const RestState& rest, const ContactPar
   }
   Noted noted(meet(sortBySize(std::move(spheres), enlargement), enlargement, threadCount), strandCount);
 
-  std::vector<std::size_t> others(strandCount);  // of each strand
+  std::vector<std::size_t> others(strandCount);  // number of partners of each strand
   SharedParts parts(strandCount, kStrandsPerPart);
   inParallel(threadCount, [&] {
     OverlapRow row(strandCount);

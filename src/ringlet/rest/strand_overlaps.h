@@ -1,4 +1,4 @@
-// Which strands overlap at rest, and by how many of their spheres. Iben et al. 2012, section 4.
+// Finds which strands overlap at rest, and counts overlaps of their spheres. Iben et al. 2012, section 4.
 #pragma once
 
 #include <cstdint>
@@ -19,9 +19,9 @@ struct StrandOverlap {
   bool operator==(const StrandOverlap&) const = default;
 };
 
-/// All pairs of strands that overlap, by a, then b; the same with any number of threads. Cost: linear in
-/// contact particles and their overlaps; memory by pairs of strands, a few times over where they meet in
-/// several places.
+/// All pairs of strands that overlap, sorted by a, then b. The result does not depend on threadCount. Cost:
+/// linear in contact particles and their overlaps; memory is proportional to pairs of strands, several times
+/// over if they touch in several places.
 std::vector<StrandOverlap> countOverlaps(const RestState& rest, const ContactParticles& particles,
                                          double enlargement, unsigned threadCount = coreCount());
 

@@ -1,4 +1,4 @@
-// How many strands a thread takes at once where the work is shared (base/in_parallel.h).
+// How many strands a thread takes at a time where work is shared (base/in_parallel.h).
 #pragma once
 
 #include <cstddef>

@@ -17,7 +17,7 @@ namespace ringlet {
 namespace {
 
 // Keys nest a table per dot, and toml++ 3.3 recurses through them without a limit: 8,000 are too deep for a
-// stack of 8 MiB with sanitizers. Two of the dots counted here may have one between them that is not.
+// stack of 8 MiB with sanitizers. Between two dots counted here there may be one that is not counted.
 constexpr std::size_t kMostDots = 2048;
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
@@ -26,7 +26,8 @@ bool isOfWord(char c) {
          c == '-';
 }
 
-// All but those of decimal numbers, which may be many: the only one of a word, between two digits.
+// Counts dots except those of decimal numbers, of which there may be many: a dot between two digits that is
+// the only one in its word.
 std::size_t dotsOfKeys(std::string_view line) {
   std::size_t count = 0;
   for (std::size_t at = 0; at < line.size(); ++at) {
@@ -44,7 +45,7 @@ std::size_t dotsOfKeys(std::string_view line) {
   return count;
 }
 
-// How deep keys may nest at the most: those with values may be in each other, of headings there is one.
+// The largest possible nesting depth: keys with values may be nested in each other; only one heading counts.
 std::size_t nestingOf(std::string_view text) {
   std::size_t withValues = 0, heading = 0;
   for (std::size_t at = 0; at < text.size();) {
@@ -76,7 +77,7 @@ std::string adviceOnKey(std::string_view word, const std::string& table, std::sp
   if (nearest == keys.size()) return fmt::format("expected {}", fmt::join(names, ", "));
   const KnownKey& meant = keys[nearest];
   if (table.empty() || !meant.table.empty()) return fmt::format("did you mean {}?", meant.fullName());
-  // What follows a table's heading belongs to it, also at the end of a file.
+  // Keys after a table's heading belong to that table, also at the end of a file.
   return fmt::format("did you mean {}, which stands above all tables? [{}] takes {}", meant.key, table,
                      fmt::join(names, ", "));
 }
@@ -99,7 +100,7 @@ Result<toml::table> parseToml(std::string_view text, const std::string& name, co
 }
 
 Result<std::string> readTomlText(const std::filesystem::path& path, const char* what) {
-  // Before memory is asked for.
+  // Before memory is allocated.
   std::error_code ignored;
   const std::uintmax_t size = std::filesystem::file_size(path, ignored);
   if (!ignored && size > kLargestTomlFile) return tooLarge(path.string(), size, what);
@@ -122,7 +123,7 @@ std::string found(const toml::node& node) {
 
 std::string tomlNumber(double value) {
   std::string text = fmt::format("{}", value);
-  if (text.find_first_of(".en") == std::string::npos) text += ".0";  // inf and nan are as they are
+  if (text.find_first_of(".en") == std::string::npos) text += ".0";  // inf and nan stay as they are
   return text;
 }
 

@@ -1,5 +1,5 @@
-// Shared by readers of TOML files: safe parsing of any text, values in words, the topmost problem of a file,
-// suggestions for unknown keys. Private to the library: it shows toml++.
+// Shared by readers of TOML files: safe parsing of any text, descriptions of values, the topmost problem of a
+// file, suggestions for unknown keys. Private to the library, since it includes toml++.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,15 @@
 
 #include "ringlet/base/result.h"
 
-// Errors come as values. toml++ 3.3 asserts what a file can break ("[,"), and with NDEBUG lets the compiler
-// assume it; its own error, which comes next, is what is wanted.
+// toml++ returns errors as values. A file can break assertions of toml++ 3.3 ("[,"); with NDEBUG it lets the
+// compiler assume that they hold. Both are switched off, since the error that it returns next is the right
+// one.
 #define TOML_EXCEPTIONS 0
 #define TOML_ASSERT(condition) static_cast<void>(0)
 #pragma push_macro("NDEBUG")
 #undef NDEBUG
-// It also lets the compiler assume that letters such as U+01A0 are not asked about outside of quotes; they
-// are no white space there.
+// toml++ also lets the compiler assume that letters such as U+01A0 are not tested outside of quotes; they are
+// no white space there.
 #include <toml++/impl/preprocessor.h>
 #pragma push_macro("TOML_UNREACHABLE")
 #undef TOML_UNREACHABLE
@@ -31,16 +32,16 @@ namespace ringlet {
 
 inline constexpr std::uintmax_t kLargestTomlFile = 1 << 20;  // [bytes] a larger file is refused
 
-/// `name` stands for the file in messages, `what` says what it should hold ("a material"). Errors: too large,
-/// nested too deeply, no TOML.
+/// `name`: the file's name in messages; `what`: what it should contain ("a material"). Errors: too large,
+/// nested too deeply, not TOML.
 Result<toml::table> parseToml(std::string_view text, const std::string& name, const char* what);
 
-/// The text of a file that is small enough. Errors: as for readWholeFile, too large.
+/// The text of a file. Errors: as for readWholeFile; too large.
 Result<std::string> readTomlText(const std::filesystem::path& path, const char* what);
 
 std::uint32_t lineOf(const toml::node& node);
 
-/// A value as it may stand in a message: "the text 'soft'", "the number 5".
+/// Describes a value in a message: "the text 'soft'", "the number 5".
 std::string found(const toml::node& node);
 
 /// The shortest decimal that reads back as the same bits, always with a point or an exponent.
@@ -49,7 +50,7 @@ std::string tomlNumber(double value);
 /// A text in quotes that reads back as the same bytes; it is UTF-8.
 std::string tomlText(std::string_view text);
 
-/// A key and the table it belongs in, "" for the file itself.
+/// A key and the table that it belongs to, "" for the file itself.
 struct KnownKey {
   std::string table, key;
   std::string fullName() const { return table.empty() ? key : table + "." + key; }
@@ -60,12 +61,12 @@ class TomlProblems {
  public:
   void add(std::uint32_t line, std::string message);
   void addFound(const toml::node& node, const std::string& key, const std::string& expected);
-  /// Every key of a table called `name` that is none of the known ones, with what may have been meant: the
-  /// nearest of all keys, those of the same table first, or what the table may hold.
+  /// Adds every key of a table called `name` that is not known, with a suggestion: the nearest known key,
+  /// those of the same table first, or the keys that the table may have.
   void addUnknownKeys(const toml::table& table, const std::string& name, std::span<const KnownKey> known);
 
   bool empty() const { return message_.empty(); }
-  /// "NAME: line N: ...", without a line where the node was in no file; there is one.
+  /// "NAME: line N: ..."; without a line if the node was in no file. There must be a problem.
   Error error(const std::string& name) const;
 
  private:

@@ -10,7 +10,7 @@
 namespace ringlet {
 namespace {
 
-// Bundles leave the volume, each a group of its own.
+// Takes bundles out of the volume, each a group of its own.
 void takeOut(const std::vector<ContactBundle>& bundles, const RestState& rest, VolumeStrands& volume) {
   std::unordered_map<std::uint32_t, std::uint32_t> bundleOf;  // of strands in groom order, from 1
   for (std::uint32_t b = 0; b < bundles.size(); ++b)

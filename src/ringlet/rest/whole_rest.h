@@ -1,4 +1,4 @@
-// WholeRest: all that hair is at rest, of a whole groom. Parts of divided hair take theirs of one.
+// WholeRest: the complete rest state of a whole groom. Parts of divided hair take theirs from one.
 #pragma once
 
 #include <optional>
@@ -16,12 +16,12 @@ namespace ringlet {
 
 struct WholeRest {
   RestState state;
-  std::optional<RestContacts> contacts{};  // where they are on
-  std::optional<RestVolume> volume{};      // where strands meet as one
+  std::optional<RestContacts> contacts{};  // if contacts are on
+  std::optional<RestVolume> volume{};      // if some strands are a volume
 };
 
-/// In the order in which strands that may touch are near each other in memory, where contacts are on; else in
-/// the groom's. `geometry`: of the strands, where it is known; empty: measured here. Errors and cost: those
+/// With contacts, strands are ordered such that those that may touch are near each other in memory; otherwise
+/// in groom order. `geometry`: of the strands, if it is known; empty: it is measured. Errors and cost: those
 /// of buildRestState, buildRestContacts, buildRestVolume.
 Result<WholeRest> buildWholeRest(const Groom& groom, const Material& material, const Settings& settings,
                                  std::span<const StrandGeometry> geometry = {});
