@@ -9,21 +9,21 @@
 namespace ringlet {
 namespace {
 
-// No distance changes faster along a way than by this factor: interpolated in a grid by sqrt(3), as those of
-// neighbouring corners differ by an edge at most, and beyond it by 2.
+// The largest slope of a distance: sqrt(3) where it is interpolated in a grid, since corners of an edge
+// differ by at most the edge's length; and 2 beyond the grid.
 constexpr double kSteepest = 2;
 
-// Hair that lies on a surface is on either side of it, by the rounding of positions and of a distance grid.
-// That is not in it, but what began there was never outside either [m].
+// Hair that lies on a surface is on either side of it, because of rounding in positions and distance grids.
+// Such a particle is not inside the body; but one that started there has not been outside either [m].
 constexpr double kOnSurface = 1e-5;
 
-// Of a particle and a body, over all looks.
+// What was seen of a particle and a body in all calls of look.
 enum Seen : std::uint8_t { kInside, kOutside, kOnIt };
 
-// A ball that is outside of a body: the next particles of the strand may be in it.
+// A ball that is outside of a body. Particles in it need no distance; the next ones of the strand may be.
 struct Clearance {
   Vec3d middle{};
-  double radius = 0;  // not above 0: none [m]
+  double radius = 0;  // 0 or less: no ball [m]
 
   bool has(Vec3d place) const {
     const Vec3d arm = place - middle;
@@ -55,7 +55,7 @@ void BodyWatch::look(std::span<const Vec3f> positions, const HeadPose& head,
         }
         const double distance = distanceTo(bodies_[b], poses[b], head.position + place);
         clearance = {place, distance / kSteepest};
-        // Those within the clearance are not looked at.
+        // Particles in the ball are not measured, so their distance may be this small.
         numbers_.nearest = std::min(numbers_.nearest, distance - std::max(0., clearance.radius));
         if (distance >= 0) seen = kOutside;
         if (seen == kInside && distance >= -kOnSurface) seen = kOnIt;

@@ -12,26 +12,29 @@
 
 namespace ringlet {
 
-/// Over all frames looked at.
+/// Over all frames given to look.
 struct BodyNumbers {
-  double deepest = 0;                       // of any particle in any body, once it was outside of it [m]
-  std::int64_t strand = -1, particle = -1;  // which it was, groom order; or -1
-  std::int64_t frame = -1;                  // the look it was seen at, from 0
-  std::size_t inside = 0;  // particles, times bodies, that have not yet been outside or on the surface
-  double nearest = 1e300;  // from a body; half of what it is at least, as what is far is hardly looked at [m]
+  double deepest = 0;                       // deepest place of a particle in a body after it was outside of
+                                            // it [m]
+  std::int64_t strand = -1, particle = -1;  // this particle, groom order; or -1
+  std::int64_t frame = -1;                  // the call of look in which it was seen, from 0
+  std::size_t inside = 0;  // number of particles, times bodies, that have never been outside or on the
+                           // surface
+  double nearest = 1e300;  // smallest distance from a body, or less: at least half of it, since distant
+                           // particles are hardly measured [m]
 };
 
 class BodyWatch {
  public:
-  /// The first `rootCount` particles of a strand follow the head wherever it goes, and do not count.
+  /// The first `rootCount` particles of a strand follow the head and are not counted.
   BodyWatch(const Groom& groom, std::span<const Body> bodies, int rootCount);
 
-  /// Positions relative to the head's origin, groom order [m]; the bodies' poses in the world. Cost: some 20
-  /// ns a particle and body, 100 of a distance grid; less where the particle before it is far from the body.
+  /// Positions relative to the head's origin, groom order [m]; poses of the bodies in the world. Cost: some
+  /// 20 ns a particle and body, 100 for a distance grid; less if the particle before it is far from the body.
   void look(std::span<const Vec3f> positions, const HeadPose& head, std::span<const BodyPose> poses);
 
   BodyNumbers numbers() const;
-  /// What was seen so far, for a checkpoint.
+  /// Archives what was seen so far, for a checkpoint.
   void archive(Archive& archive) {
     archive.values(std::span(seen_));
     archive.value(numbers_);
@@ -42,7 +45,7 @@ class BodyWatch {
   std::vector<std::uint32_t> firstPoint_;
   std::vector<Body> bodies_;
   std::size_t rootCount_;
-  std::vector<std::uint8_t> seen_;  // where each was, by body, then particle
+  std::vector<std::uint8_t> seen_;  // a value of Seen, by body, then particle
   BodyNumbers numbers_;
   std::int64_t looks_ = 0;
 };

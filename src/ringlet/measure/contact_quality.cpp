@@ -11,7 +11,8 @@ namespace ringlet {
 
 namespace {
 
-// visit(a, b, overlap): of every pair nearer than R, its strands in device order and its overlap beyond rest.
+// Calls visit(a, b, overlap) for every pair closer than R, with its strands in device order and its overlap
+// beyond rest.
 template <class Visit>
 void visitOverlaps(const RestState& rest, const RestContacts& contacts, std::span<const Vec3f> positions,
                    const Visit& visit) {

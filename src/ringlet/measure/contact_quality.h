@@ -17,17 +17,17 @@
 
 namespace ringlet {
 
-/// positions [m]: groom order, as Simulation::positions returns them. Particles that are not finite overlap
-/// nothing. Cost: linear in contact particles and overlaps.
+/// positions [m]: groom order, as Simulation::positions returns them. Particles that are not finite have no
+/// overlaps. Cost: linear in contact particles and overlaps.
 ContactQuality measureContacts(const RestState& rest, const RestContacts& contacts,
                                std::span<const Vec3f> positions);
 
-/// The deepest overlap beyond rest of each strand of the groom; 0 of those that are carried rigidly.
-/// Otherwise as measureContacts.
+/// The deepest overlap beyond rest of each strand of the groom; 0 for rigid strands. Otherwise as
+/// measureContacts.
 std::vector<float> overlapOfStrands(const RestState& rest, const RestContacts& contacts,
                                     std::span<const Vec3f> positions);
 
-/// measureContacts of one groom, pose after pose.
+/// Applies measureContacts to several poses of one groom.
 class ContactRuler {
  public:
   /// Errors: those of buildRestState. Radii and pruning are those of settings.contacts, on or off.
@@ -39,7 +39,7 @@ class ContactRuler {
   std::vector<float> overlapOfStrands(std::span<const Vec3f> positions) const {
     return ringlet::overlapOfStrands(rest_, contacts_, positions);
   }
-  /// What the solver warns of with these settings (Simulation::warnings).
+  /// The solver's warnings for these settings (Simulation::warnings).
   const std::vector<std::string>& warnings() const { return rest_.warnings; }
 
  private:

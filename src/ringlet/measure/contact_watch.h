@@ -1,5 +1,5 @@
-// ContactWatch: a whole run seen for what hairs did to each other: how often they went through one another,
-// and the frame in which they were deepest in each other.
+// ContactWatch: measures contacts over a whole run: how often hairs passed through one another, and the frame
+// with the deepest overlaps.
 #pragma once
 
 #include <cstdint>
@@ -17,27 +17,27 @@
 
 namespace ringlet {
 
-/// Feed the state a run starts from and then every outer step, and say where a frame ends. Works the same
-/// with contacts off: it sees what they would have had to do. Cost of a step: some 6 us an edge in dense
-/// hair; of a frame: linear in contact particles and overlaps.
+/// Give it the state at the start of a run and after every outer step, and tell it where frames end. It works
+/// with contacts off as well: it then measures what they would have had to prevent. Cost of a step: some 6 us
+/// an edge in dense hair; of a frame: linear in contact particles and overlaps.
 class ContactWatch {
  public:
   /// Errors: those of buildRestState. Radii and pruning are those of settings.contacts, on or off.
   static Result<ContactWatch> make(const Groom& groom, const Material& material, const Settings& settings);
 
-  /// positions [m]: groom order. Of a frame much longer than a step, straight ways between its ends would
-  /// cross where the hair went round.
+  /// positions [m]: groom order. Particles are assumed to move straight: over an interval much longer than a
+  /// step this would count crossings where hair moved around.
   void addStep(std::span<const Vec3f> positions);
-  /// The state added last ends a frame. Whether it is the worst so far.
+  /// Marks the last state as the end of a frame. Returns whether it is the worst frame so far.
   bool endFrame();
 
   const ContactNumbers& numbers() const { return numbers_; }
-  /// What was seen so far, for a checkpoint.
+  /// Archives what was seen so far, for a checkpoint.
   void archive(Archive& archive) {
     archive.list(positions_);
     archive.value(numbers_);
   }
-  /// What the solver warns of with these settings (Simulation::warnings).
+  /// The solver's warnings for these settings (Simulation::warnings).
   const std::vector<std::string>& warnings() const { return ruler_.warnings(); }
 
  private:
@@ -47,7 +47,7 @@ class ContactWatch {
   ContactRuler ruler_;
   std::vector<std::uint32_t> firstPoint_;
   std::vector<std::uint32_t> bundles_;  // of each strand, from 1; empty: there are none
-  std::vector<Vec3f> positions_;        // of the step before; none at first
+  std::vector<Vec3f> positions_;        // of the step before; empty at first
   ContactNumbers numbers_;
 };
 

@@ -13,10 +13,10 @@
 namespace ringlet {
 namespace {
 
-// Share of a straight strand that is smoothed over.
+// Share of a straight strand over which it is smoothed.
 constexpr double kStraightWindowShare = 0.1;
 
-// A stretch of the first mean shorter than this share of the window has no slope of its own.
+// The slope at an end of the first mean is not used if it spans less than this share of the window.
 constexpr double kShortestSlope = 1e-6;
 
 // A polyline as a curve over a coordinate, and its integral, piecewise quadratic.
@@ -64,7 +64,7 @@ Vec3d turnedWith(Vec3d v, Vec3d from, Vec3d to) {
   return v * cosine + cross(axis, v) + axis * (dot(axis, v) / (1 + cosine));
 }
 
-// Central differences; a stretch without length takes its neighbour's direction.
+// Central differences; where they have no length, the tangent of the neighbour.
 std::vector<Vec3d> tangentsOf(std::span<const Vec3d> core) {
   const std::size_t count = core.size();
   std::vector<Vec3d> tangents(count);
@@ -100,7 +100,7 @@ std::vector<Vec3d> smoothCore(std::span<const Vec3d> points, std::span<const dou
   RINGLET_ASSERT(window > 0 && window <= end, "the window fits into the strand");
   const Curve strand(points, arcPositions);
 
-  // The mean once, where the window fits.
+  // The first mean, where the window fits.
   const double half = window / 2;
   const double first = half, last = std::max(half, end - half);
   auto meanAt = [&](double s) { return strand.mean(s - half, std::min(s + half, end)); };
@@ -116,8 +116,8 @@ std::vector<Vec3d> smoothCore(std::span<const Vec3d> points, std::span<const dou
     means.push_back(meanAt(last));
   }
 
-  // On straight at both ends. The slope of a mean is the strand's rise over its window; where the mean is but
-  // a point, that of the whole strand.
+  // Extend the mean straight at both ends, with the slope of the mean there; if the mean is a single point,
+  // with that of the whole strand.
   Vec3d rootSlope = (strand.pointAt(window) - strand.pointAt(0)) / window, tipSlope = rootSlope;
   const double reach = std::min(window, last - first);
   if (reach > kShortestSlope * window) {
@@ -129,7 +129,7 @@ std::vector<Vec3d> smoothCore(std::span<const Vec3d> points, std::span<const dou
   at.push_back(end + half);
   means.push_back(means.back() + tipSlope * (end + half - last));
 
-  // The mean twice, at the particles.
+  // The second mean, at the particles.
   const Curve once(means, at);
   std::vector<Vec3d> core;
   core.reserve(points.size());

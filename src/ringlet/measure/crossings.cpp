@@ -1,8 +1,8 @@
 // Implements measure/crossings.h.
 //
 //      q0              The volume V = ((p1 - p0) x (q0 - p0)) . (q1 - q0), six times the tetrahedron's, has
-//   p0--\---->p1       one sign on either side of p. Ends move evenly, so V is a cubic in time; where it is
-//        \             0 all ends lie in one plane, and edges that cut each other there have met.
+//   p0--\---->p1       a different sign on each side of p. Ends move evenly, so V is a cubic in time; where
+//        \             it is 0, all ends lie in one plane, and edges that cut each other then have crossed.
 //         v q1
 #include "ringlet/measure/crossings.h"
 
@@ -18,7 +18,7 @@
 namespace ringlet {
 namespace {
 
-// An edge at times 0 and 1: where it begins and how it lies. Between them both change evenly.
+// An edge at times 0 and 1: its first end and its vector. Both change linearly in between.
 struct MovingEdge {
   Vec3d root[2], along[2];
 
@@ -26,7 +26,8 @@ struct MovingEdge {
   Vec3d alongAt(double t) const { return along[0] + (along[1] - along[0]) * t; }
 };
 
-// c0 + c1 t + c2 t^2 + c3 t^3, and its exact value at time 1: as it will be at time 0 of the next step.
+// c0 + c1 t + c2 t^2 + c3 t^3, and its value at time 1 computed directly: with the same bits as at time 0 of
+// the next step.
 struct Cubic {
   double c0, c1, c2, c3, end;
   double at(double t) const { return t == 1 ? end : c0 + t * (c1 + t * (c2 + t * c3)); }
@@ -42,7 +43,7 @@ Cubic volume(const MovingEdge& p, const MovingEdge& q) {
           dot(cross(aEnd, bEnd), cEnd)};
 }
 
-// Times between which the cubic only rises or only falls, from 0 to 1.
+// Times from 0 to 1 between which the cubic is monotonic.
 struct Times {
   std::array<double, 4> values{};
   int count = 0;
@@ -52,7 +53,7 @@ struct Times {
 Times turningTimes(const Cubic& v) {
   Times times;
   times.add(0);
-  // Roots of the slope c1 + 2 c2 t + 3 c3 t^2, in the form that loses no digits.
+  // Roots of the slope c1 + 2 c2 t + 3 c3 t^2, in a form without cancellation.
   const double a = 3 * v.c3, b = v.c2, c = v.c1, root = b * b - a * c;
   if (root > 0) {
     const double q = -(b + std::copysign(std::sqrt(root), b));
@@ -66,7 +67,8 @@ Times turningTimes(const Cubic& v) {
   return times;
 }
 
-// When the cubic, of different sign at both ends, passes through zero: halving until doubles end.
+// The zero of the cubic, which has different signs at both ends, by bisection down to the precision of
+// doubles.
 double zeroBetween(const Cubic& v, double low, double high) {
   const bool below = v.at(low) < 0;
   for (int i = 0; i < 64; ++i) {
@@ -76,8 +78,8 @@ double zeroBetween(const Cubic& v, double low, double high) {
   return (low + high) / 2;
 }
 
-// Whether the two edges, whose ends lie in one plane at time t, cut each other there. An edge has its first
-// end but not its last, so that what passes just where two edges meet passes one of them.
+// Whether the two edges, whose ends lie in one plane at time t, cut each other there. An edge includes its
+// first end but not its last, so that passing exactly through a particle counts for only one of its edges.
 bool cutEachOther(const MovingEdge& p, const MovingEdge& q, double t) {
   const Vec3d a = p.alongAt(t), c = q.alongAt(t), between = q.rootAt(t) - p.rootAt(t);
   const double aa = dot(a, a), cc = dot(c, c), ac = dot(a, c), determinant = aa * cc - ac * ac;
@@ -94,7 +96,7 @@ std::uint64_t crossingsOf(const MovingEdge& p, const MovingEdge& q) {
   for (int i = 0; i + 1 < times.count; ++i) {
     const double low = times.values[static_cast<std::size_t>(i)],
                  high = times.values[static_cast<std::size_t>(i) + 1];
-    // Zero is on the upper side, at the end of a step as at the start of the next.
+    // Zero counts as positive, so that the end of a step agrees with the start of the next.
     if ((v.at(low) < 0) == (v.at(high) < 0)) continue;
     count += cutEachOther(p, q, zeroBetween(v, low, high));
   }

@@ -13,14 +13,14 @@
 namespace ringlet {
 namespace {
 
-// The angle of the turn from one frame to another, by the shorter way [degrees].
+// The angle of the shorter rotation from one frame to another [degrees].
 double degreesBetween(Quatd a, Quatd b) {
   const Quatd turn = b * a.conjugate();
   return 2 * std::atan2(length(Vec3d{turn.x, turn.y, turn.z}), std::abs(turn.w)) * 180 / std::numbers::pi;
 }
 
-// The frames that hold a strand's edges, seen from the head. The filter starts from the rest first edge,
-// which therefore leads.
+// The frames of a strand's edges, relative to the head. The filter starts from the first edge at rest, which
+// is therefore put before the others.
 std::vector<Quatd> framesOf(std::span<const Vec3f> strand, double metresPerUnit, Vec3d firstEdge, double beta,
                             Quatd head) {
   std::vector<Vec3d> edges{firstEdge};

@@ -1,5 +1,5 @@
-// FrameTurn: how far a strand's frames turn from one look to the next. Carried along the smoothed strand they
-// turn by the less the sooner one looks again; along the raw strand they jump where it folds, however soon
+// FrameTurn: how far a strand's frames turn between two looks. Frames transported along the smoothed strand
+// turn less the shorter the interval is; along the raw strand they jump where it folds, however short it is
 // (Iben et al. 2012, section 3.2).
 #pragma once
 
@@ -13,19 +13,20 @@
 
 namespace ringlet {
 
-/// Show it every step, then ask. The frames are those a step holds the edges in, in double: seen from the
-/// head, carried along the strand smoothed by the material's bend smoothing length, 0 being the raw strand.
+/// Call look for every step, then largest. Frames are those that a step computes for the edges, in double:
+/// relative to the head, transported along the strand smoothed by the material's bend smoothing length; 0 is
+/// the raw strand.
 class FrameTurn {
  public:
-  /// rest: finite, strands of two particles and more; uses rest.metresPerUnit.
+  /// rest: finite, strands of at least two particles; uses rest.metresPerUnit.
   FrameTurn(const Groom& rest, const Material& material);
 
   /// points: as many as in the groom, in its order; metresPerUnit: of these points. head: its rotation
-  /// against the rest pose. Cost: one pass.
+  /// relative to the rest pose. Cost: one pass.
   void look(std::span<const Vec3f> points, double metresPerUnit, Quatd head = {});
 
-  /// The largest angle by which any frame of any strand turned from one look to the next, in [0, 180]
-  /// [degrees]; 0 before the second.
+  /// The largest angle by which any frame of any strand turned between two looks, in [0, 180] [degrees]; 0
+  /// before the second look.
   double largest() const { return largest_; }
 
  private:

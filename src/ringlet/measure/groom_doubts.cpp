@@ -17,7 +17,7 @@
 namespace ringlet {
 namespace {
 
-constexpr double kFarRoots = 0.5;   // of a head's hair from where its head turns [m]
+constexpr double kFarRoots = 0.5;   // distance of roots from the head's pivot that is not plausible [m]
 constexpr double kNoTurn = 0.9999;  // cosine of half an angle of 1.6 degrees
 
 std::vector<Vec3d> rootsOf(const Groom& groom) {
@@ -33,7 +33,7 @@ Vec3d meanOf(std::span<const Vec3d> points) {
   return sum / static_cast<double>(std::max<std::size_t>(points.size(), 1));
 }
 
-// Across all particles [m].
+// Diagonal of the box of all particles [m].
 double sizeOf(const Groom& groom) { return boundsOf(groom.points).diagonal() * groom.metresPerUnit; }
 
 double nearestRoot(const Groom& groom) {
@@ -42,8 +42,8 @@ double nearestRoot(const Groom& groom) {
   return nearest;
 }
 
-// Whether a built-in motion turns the groom about an axis that goes through it, as a spin does one that
-// stands above the origin.
+// Whether a built-in motion turns the groom about an axis that passes through it, as a spin does for a groom
+// above the origin.
 bool standsOnAxis(const Groom& groom, const Motion& motion) {
   const MotionKind kind = motion.kind;
   if (kind != MotionKind::nod && kind != MotionKind::spin && kind != MotionKind::turn &&

@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::array<LikelyUnit, 4> kUnits{
     {{"m", 1, 0}, {"cm", 0.01, 0}, {"mm", 0.001, 0}, {"inch", 0.0254, 0}}};
-constexpr double kUpShare = 2;  // the way down is this much larger than both ways across
+constexpr double kUpShare = 2;  // the total vector of all strands is this much larger downward than along
+                                // both other axes
 
 double medianOf(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -24,7 +25,7 @@ double medianOf(std::vector<double>& values) {
   return *middle;
 }
 
-// The axis that the strands hang along, all together.
+// The axis along which all strands together hang.
 char upOf(Vec3d way) {
   const double down = std::max(-way.y, -way.z);
   if (!(down > 0)) return 0;
@@ -46,7 +47,7 @@ Vec3d centreOf(std::span<const Vec3f> strand) {
   return sum / static_cast<double>(strand.size());
 }
 
-// Of the edges of each strand, and strands without any.
+// Faults of the edges of each strand, and strands without length.
 void findEdgeFaults(const Groom& groom, std::span<const double> lengths, GroomInspection& found) {
   for (std::size_t s = 0; s < groom.strandCount(); ++s) {
     const std::span<const Vec3f> strand = groom.strand(s);
@@ -65,7 +66,7 @@ void findEdgeFaults(const Groom& groom, std::span<const double> lengths, GroomIn
   }
 }
 
-// Strands unlike the middle of all.
+// Strands that differ much from the median.
 void findStrayStrands(const Groom& groom, std::span<const double> lengths, GroomInspection& found) {
   std::vector<Vec3d> centres;
   std::array<std::vector<double>, 3> places;
@@ -79,7 +80,7 @@ void findStrayStrands(const Groom& groom, std::span<const double> lengths, Groom
   const Vec3d middle{medianOf(places[0]), medianOf(places[1]), medianOf(places[2])};
   std::vector<double> distances;
   for (const Vec3d& centre : centres) distances.push_back(length(centre - middle));
-  // A groom of one strand, or all in a row, is not away from itself: its own length counts as near.
+  // In a groom of one strand, or with all strands in a row, distances up to the median length count as near.
   const double near = std::max(middleOf(distances).median, found.length.median);
   for (std::size_t s = 0; s < lengths.size(); ++s) {
     if (lengths[s] > 0 && lengths[s] * kStrayLength < found.length.median) found.tooShort.add(s);
@@ -88,7 +89,7 @@ void findStrayStrands(const Groom& groom, std::span<const double> lengths, Groom
   }
 }
 
-// Particles and strands in places where others are or where none is, and strands that run from tip to root.
+// Particles and strands in the same place as others or far from all, and strands that run from tip to root.
 void findPlaceFaults(const Groom& groom, GroomInspection& found) {
   const std::vector<bool> isDuplicate = duplicatesIn(groom), isReversed = findRootEnds(groom).isReversed;
   const std::vector<bool> isShared = sharedPlaces(groom, isDuplicate), isStray = strayPoints(groom);

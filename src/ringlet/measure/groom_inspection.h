@@ -10,29 +10,29 @@
 
 namespace ringlet {
 
-/// Extremes and the middle of some values; all 0 without any.
+/// Extremes, median and mean of some values; all 0 without values.
 struct Middle {
   double min = 0, median = 0, mean = 0, max = 0;
 };
 Middle middleOf(std::vector<double> values);
 
-/// A unit a groom may be in, and how long its strands would be on average.
+/// A unit that a groom may be in, and the mean length of its strands with it.
 struct LikelyUnit {
   const char* name = "";
   double metresPerUnit = 0, meanLength = 0;  // [m]
 };
 
-/// A head's hair is this long on average [m].
+/// Plausible range of the mean length of a head's hair [m].
 inline constexpr double kShortestHair = 0.03, kLongestHair = 1;
-/// A strand shorter or longer than the median by this factor is a stray, and so is one that is this many
-/// times the median distance away from the middle of all.
+/// A strand is a stray if it is shorter or longer than the median by this factor, or if its distance from the
+/// median place is this many times the median distance.
 inline constexpr double kStrayLength = 20, kStrayDistance = 6;
-/// An edge shorter than this share of its strand's mean edge is mentioned.
+/// An edge is reported if it is shorter than this share of its strand's mean edge.
 inline constexpr double kShortEdgeShare = 1e-3;
-/// And one that is longer than its strand's median by this factor.
+/// Or if it is longer than its strand's median edge by this factor.
 inline constexpr double kLongEdge = 6;
 
-/// What is wrong with a groom: how much of it, and one strand as an example.
+/// A fault of a groom: how often it occurs, and one strand as an example.
 struct GroomFault {
   std::size_t count = 0, firstStrand = 0;
 
@@ -47,24 +47,24 @@ struct GroomShape {
   std::size_t strandCount = 0, particleCount = 0;
   Middle particles;               // of a strand
   Middle length;                  // of a strand, along its edges [unit]
-  Middle arcOverChord;            // of strands whose ends are apart
+  Middle arcOverChord;            // of strands whose root and tip are apart
   std::size_t curledCount = 0;    // by measureCurl
   Middle turns, radius;           // of the curled [1, unit]
   Bounds box;                     // around all particles [unit]
-  std::vector<LikelyUnit> units;  // metre, centimetre, millimetre, inch: those that fit a head's hair
-  char likelyUp = 0;              // likelyUpOf
+  std::vector<LikelyUnit> units;  // of metre, centimetre, millimetre and inch those that suit a head's hair
+  char likelyUp = 0;              // see likelyUpOf
 };
 
-/// And its faults.
+/// The shape of a groom with its faults.
 struct GroomInspection : GroomShape {
-  GroomFault repeatedParticles;           // in the place of the one before
-  GroomFault shortEdges;                  // those above not counted
-  GroomFault longEdges;                   // than the strand's median
-  GroomFault strayParticles;              // far off where no hair is (stray_points.h)
-  GroomFault sharedParticles;             // others in the very place of another strand's
-  GroomFault reversedStrands;             // that end on the head and begin away from it (root_ends.h)
-  GroomFault pointStrands;                // all in one place
-  GroomFault duplicates;                  // strands of the very particles of one before
+  GroomFault repeatedParticles;           // at the same place as the one before
+  GroomFault shortEdges;                  // not counting repeatedParticles
+  GroomFault longEdges;                   // compared with the strand's median
+  GroomFault strayParticles;              // far from all hair (stray_points.h)
+  GroomFault sharedParticles;             // at the very place of another strand's particle
+  GroomFault reversedStrands;             // tip on the head and root away from it (root_ends.h)
+  GroomFault pointStrands;                // all particles at one place
+  GroomFault duplicates;                  // strands with the same particles as an earlier one
   GroomFault tooShort, tooLong, farAway;  // strays
 
   bool isFaultless() const {
@@ -77,11 +77,13 @@ struct GroomInspection : GroomShape {
   }
 };
 
-/// Metre, centimetre, millimetre, inch: those in which strands of this mean length [unit] would fit a head.
+/// Those of metre, centimetre, millimetre and inch in which strands of this mean length [unit] would suit a
+/// head.
 std::vector<LikelyUnit> likelyUnits(double meanLength);
 
-/// Of a groom as readers return it (two finite particles and more a strand), as all below. The axis against
-/// which the strands hang, all together: 'Y' or 'Z', 0 where they hang along neither. Cost: linear.
+/// For a groom as readers return it (at least two particles a strand, all finite), as for the functions
+/// below. The axis against which all strands together hang: 'Y' or 'Z'; 0 if they hang along neither. Cost:
+/// linear.
 char likelyUpOf(const Groom& groom);
 
 /// Cost: n log n in the strands, and measureCurl of each.

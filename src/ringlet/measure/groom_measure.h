@@ -1,4 +1,4 @@
-// GroomRuler and GroomMeasure: the strands of a groom measured one by one, and what they have in common.
+// GroomRuler and GroomMeasure: measures of each strand of a groom, and their summary.
 #pragma once
 
 #include <cstddef>
@@ -18,30 +18,31 @@ struct Spread {
   double mean = 0, min = 0, max = 0;
 };
 
-/// The spread of some values; all 0 without any.
+/// The spread of some values; all 0 without values.
 Spread spreadOf(std::span<const double> values);
 
 /// The values of StrandMeasure over all strands, in its units.
 struct GroomMeasure {
   std::size_t strandCount = 0, particleCount = 0;
   std::size_t curledCount = 0;                            // strands that are not straight at rest
-  std::size_t rightHandedCount = 0, leftHandedCount = 0;  // by their winding now; perversions are either
+  std::size_t rightHandedCount = 0, leftHandedCount = 0;  // by their present winding; perversions count as
+                                                          // either
   Spread droop, relativeDroop, chord, chordElongation, coreLength, coreElongation;
   Spread arcDrift, maxEdgeStretch, turns, turnsAtRest, winding, meanRadius, meanRadiusAtRest;
   Spread handednessKept, tipRotation;
 };
 
-/// The value farther from 0 of a spread's two extremes, with its sign.
+/// Of a spread's two extremes the one farther from 0, with its sign.
 double worstOf(const Spread& spread);
 
-/// What the strands of a groom are measured against.
+/// The rest shapes with which the strands of a groom are compared.
 class GroomRuler {
  public:
   /// Uses rest.metresPerUnit. Errors: no strands, and those of StrandRuler::make with the strand's number.
   /// Cost: as measure().
   static Result<GroomRuler> make(const Groom& rest);
 
-  /// One measure a strand. points: as many as in the groom, in its order; metresPerUnit: of these points.
+  /// One measure per strand. points: as many as in the groom, in its order; metresPerUnit: of these points.
   /// Errors: a particle that is not finite, with its strand. Cost: some 0.3 us a particle.
   Result<std::vector<StrandMeasure>> measure(std::span<const Vec3f> points, double metresPerUnit, Vec3d up,
                                              Quatd headRotation = {}) const;
@@ -49,7 +50,7 @@ class GroomRuler {
   /// The measures of the rest groom itself.
   std::vector<StrandMeasure> rest() const;
 
-  /// How the head has turned, from the roots (head_fit.h).
+  /// The head's rotation, estimated from the roots (head_fit.h).
   Quatd headRotationOf(std::span<const Vec3f> points, double metresPerUnit) const;
 
   GroomMeasure summarize(std::span<const StrandMeasure> measures) const;

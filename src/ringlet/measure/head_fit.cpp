@@ -15,8 +15,8 @@ namespace {
 using Row = std::array<double, 4>;
 using Matrix = std::array<Row, 4>;
 
-// Eigenvalues of a symmetric matrix come to stand on its diagonal, eigenvectors in the columns returned
-// (Jacobi's rotations; a 4x4 matrix is diagonal to rounding after about six sweeps).
+// Leaves the eigenvalues of a symmetric matrix on its diagonal and returns the eigenvectors as columns
+// (Jacobi rotations; a 4x4 matrix is diagonal up to rounding after about six sweeps).
 Matrix diagonalize(Matrix& a) {
   Matrix vectors{Row{1, 0, 0, 0}, Row{0, 1, 0, 0}, Row{0, 0, 1, 0}, Row{0, 0, 0, 1}};
   for (int sweep = 0; sweep < 16; ++sweep) {
@@ -52,7 +52,7 @@ Vec3d meanOf(std::span<const Vec3d> points) {
   return sum / static_cast<double>(std::max<std::size_t>(points.size(), 1));
 }
 
-// Eigenvalues nearer to the greatest than this share of it are the same: what separates them is rounding.
+// Eigenvalues closer to the greatest than this share of it count as equal: they differ by rounding.
 constexpr double kSameEigenvalue = 1e-6;
 
 }  // namespace
@@ -76,7 +76,7 @@ Quatd fitHeadRotation(std::span<const Vec3d> restRoots, std::span<const Vec3d> r
   const Matrix vectors = diagonalize(n);
   const double greatest = std::max({n[0][0], n[1][1], n[2][2], n[3][3]});
 
-  // The identity's projection on all that fit best: of these the smallest rotation.
+  // The projection of the identity onto all best rotations: the smallest of them.
   Quatd best{0, 0, 0, 0};
   for (std::size_t k = 0; k < 4; ++k) {
     if (n[k][k] < greatest - kSameEigenvalue * std::abs(greatest)) continue;
@@ -85,7 +85,7 @@ Quatd fitHeadRotation(std::span<const Vec3d> restRoots, std::span<const Vec3d> r
             best.w + share * vectors[3][k]};
   }
   if (best.w > 1e-24) return normalized(best);
-  // Half a turn: none of them has a share of the identity.
+  // Half a turn: all of them are orthogonal to the identity.
   for (std::size_t k = 0; k < 4; ++k) {
     if (n[k][k] == greatest) best = {vectors[0][k], vectors[1][k], vectors[2][k], vectors[3][k]};
   }

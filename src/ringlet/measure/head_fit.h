@@ -1,4 +1,4 @@
-// fitHeadRotation: how the head has turned, from the roots it carries, for files that do not say.
+// fitHeadRotation: the rotation of the head, estimated from its roots, for files that do not contain it.
 #pragma once
 
 #include <span>
@@ -7,9 +7,9 @@
 
 namespace ringlet {
 
-/// The rotation that takes the rest roots to the roots best, both seen from their means (least squares, Horn
-/// 1987). Where the roots leave it open (one root, or all on a line) the smallest of those that fit. As many
-/// roots as rest roots, finite. Cost: one pass.
+/// The rotation that best takes the rest roots to the roots, each relative to their mean (least squares, Horn
+/// 1987). If the roots do not determine it (one root, or all on a line), the smallest best rotation. As many
+/// roots as rest roots, all finite. Cost: one pass.
 Quatd fitHeadRotation(std::span<const Vec3d> restRoots, std::span<const Vec3d> roots);
 
 }  // namespace ringlet

@@ -14,14 +14,15 @@
 namespace ringlet {
 namespace {
 
-constexpr double kSteady = 0.7;            // length of the mean direction up, from which on a joint has one
-constexpr double kTilted = 60;             // further than a head is bent on average [degrees]
-constexpr double kFarJoint = 0.5;          // of a head's hair from its joint [m]
-constexpr std::size_t kMostLooks = 1'000;  // at keys
+constexpr double kSteady = 0.7;            // a joint's up axis is steady if the mean direction is at least
+                                           // this long
+constexpr double kTilted = 60;             // more than a head is bent on average [degrees]
+constexpr double kFarJoint = 0.5;          // distance of roots from the joint that is not plausible [m]
+constexpr std::size_t kMostLooks = 1'000;  // number of keys that are sampled
 
 double component(Vec3d v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
-// "+X": the axis that a direction is nearest to.
+// "+X": the axis closest to a direction.
 std::string nearestAxis(Vec3d direction) {
   int nearest = 0;
   for (int axis = 1; axis < 3; ++axis) {

@@ -1,4 +1,4 @@
-// Whether a groom suits the joint that carries it: axes and places of other programs differ from a groom's.
+// Checks that a groom suits the joint that carries it: other programs may use other axes and places.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,13 @@
 
 namespace ringlet {
 
-/// A sentence where the joint's axis that points up, on average over its keys, is not the groom's, `up`: the
-/// groom would stand on its side. None for a joint that turns over and over, or is no file's. `joint`: its
-/// name. Cost: a look at a thousand keys.
+/// A sentence if the joint's axis that points up, on average over its keys, is not the groom's `up`: the
+/// groom would lie on its side. None for a joint that turns over repeatedly, or for a motion without keys.
+/// `joint`: its name. Cost: up to a thousand keys are read.
 std::optional<std::string> checkJointAxes(const Motion& motion, Vec3d up, const std::string& joint);
 
-/// A sentence where no root is near the joint, with the head at its pose `head` of the bind frame; `isWorld`:
-/// the groom is bound in the world. Cost: a look at each strand.
+/// A sentence if no root is near the joint, with the head at its pose `head` in the bind frame; `isWorld`:
+/// the groom is bound in world coordinates. Cost: linear in strands.
 std::optional<std::string> checkJointDistance(const Groom& groom, const HeadPose& head, bool isWorld,
                                               const std::string& joint);
 

@@ -1,4 +1,4 @@
-// A length for a person.
+// Formats a length for people.
 #pragma once
 
 #include <fmt/format.h>

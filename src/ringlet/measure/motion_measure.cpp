@@ -12,12 +12,13 @@
 namespace ringlet {
 namespace {
 
-// Motion below these is rounding of positions stored as floats.
-constexpr double kDrivenShare = 1e-5;    // change of the roots' step from frame to frame, of the arc length
-constexpr double kDrivenAngle = 1e-4;    // the same of the head's turning [rad]
-constexpr double kSmallestShare = 1e-5;  // excursion of a tip, of the arc length
+// Smaller motion is rounding of positions stored as floats.
+constexpr double kDrivenShare = 1e-5;    // change of the roots' displacement between frames, relative to the
+                                         // arc length
+constexpr double kDrivenAngle = 1e-4;    // the same for the head's rotation [rad]
+constexpr double kSmallestShare = 1e-5;  // excursion of a tip, relative to the arc length
 
-// Mean turns and radius of what is curled at rest: a straight strand among curls has none to be averaged.
+// Mean turns and radius of strands that are curled at rest; straight strands have none.
 struct MeanCurl {
   double turns = 0, radius = 0;
 };
@@ -48,7 +49,7 @@ struct Energy {
   double peak = 0, ratio = 0;
 };
 
-// Whether the path leaves its start by more than `smallest`: else its speeds are rounding too.
+// Whether the path leaves its start by more than `smallest`; if not, its speeds are rounding too.
 bool hasMoved(std::span<const Vec3d> path, double smallest) {
   return std::ranges::any_of(path, [&](Vec3d p) { return length(p - path.front()) > smallest; });
 }
@@ -88,13 +89,13 @@ Status MotionMeasure::addFrame(std::span<const Vec3f> points, double metresPerUn
   for (std::size_t s = 0; s < strands_.size(); ++s) {
     StrandHistory& history = strands_[s];
 
-    // How it looks.
+    // Shape.
     StrandMeasure& now = (*measures)[s];
     now.tipRotation = unwrapDegrees(now.tipRotation, history.last.tipRotation);
     history.last = now;
     keepWorst(history.worst, now, isFirst);
 
-    // Where it is, seen from its root in the head's frame.
+    // Positions relative to the root, in the head's frame.
     std::vector<Vec3d> particles = ruler_.strandIn(points, metresPerUnit, s);
     const Vec3d root = particles.front();
     rootSum += root;
@@ -102,7 +103,7 @@ Status MotionMeasure::addFrame(std::span<const Vec3f> points, double metresPerUn
     history.tips.push_back(particles.back());
     history.coreLengths.push_back(now.coreLength);
 
-    // Its energy: each particle has the mass of half of either edge.
+    // Kinetic energy: each particle has half the mass of each adjacent edge.
     std::vector<Vec3d> speeds = velocities.empty() ? std::vector<Vec3d>{} : ruler_.strandIn(velocities, 1, s);
     const std::span<const double> at = ruler_.strand(s).arcPositions();
     double energy = 0;
@@ -137,7 +138,8 @@ FrameMeasure MotionMeasure::summary(std::span<const StrandMeasure> measures, dou
   return frame;
 }
 
-// The head drives the hair where its step is not the step before: its roots', or its turn.
+// The head drives the hair in a frame if its displacement differs from that of the frame before: that of its
+// roots, or its rotation.
 void MotionMeasure::watchHead(Vec3d meanRoot, Quatd headRotation) {
   if (frameCount_ >= 2) {
     const Vec3d change = meanRoot - meanRoots_[0] * 2.0 + meanRoots_[1];

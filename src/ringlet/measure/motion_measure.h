@@ -1,5 +1,5 @@
-// MotionMeasure: hair in motion, frame by frame: how it looks at the end and at its worst, how fast it
-// bounces, when it comes to rest, what energy is left.
+// MotionMeasure: measures of hair in motion: its final and its worst shape, how fast it bounces, when it
+// comes to rest, and how much energy is left.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ struct MotionOptions {
   double lineDensity = 1e-5;  // [kg/m]; cancels from every ratio
 };
 
-/// The worst of a strand over all frames.
+/// The worst values of a strand over all frames.
 struct WorstMeasure {
   double droop = 0;           // greatest magnitude [m]
   double coreElongation = 1;  // largest
@@ -31,18 +31,19 @@ struct WorstMeasure {
 struct StrandMotion {
   StrandMeasure last;  // of the last frame; tipRotation unwrapped over all frames
   WorstMeasure worst;
-  std::optional<double> bounceHz, swayHz;  // while the head does not drive it (tip_motion.h)
-  std::optional<double> settleSeconds;     // since the head stopped driving it; unset: not settled
-  double peakEnergy = 0;                   // kinetic, seen from the root [J]
-  double energyRatio = 0;  // mean over the closing frames / peak; 0 if its tip never moved, but for rounding
+  std::optional<double> bounceHz, swayHz;  // in frames that the head does not drive (tip_motion.h)
+  std::optional<double> settleSeconds;     // since the head last drove it; unset: not settled
+  double peakEnergy = 0;                   // kinetic, relative to the root [J]
+  double energyRatio = 0;  // mean over the closing frames / peak; 0 if the tip moved no more than rounding
+                           // does
 };
 
-/// A frame, over all strands.
+/// Measures of a frame over all strands.
 struct FrameMeasure {
   double droop = 0;           // mean [m]
   double coreElongation = 1;  // mean
   double turns = 0;           // mean over strands that are curled at rest
-  double energy = 0;          // kinetic, each strand seen from its root [J]
+  double energy = 0;          // kinetic, each strand relative to its root [J]
 };
 
 struct MotionReport {
@@ -75,7 +76,7 @@ class MotionMeasure {
   Status addFrame(std::span<const Vec3f> points, double metresPerUnit,
                   std::optional<Quatd> headRotation = std::nullopt, std::span<const Vec3f> velocities = {});
 
-  /// Of the frames so far, at least one.
+  /// The report on the frames so far, at least one.
   MotionReport report() const;
 
   const GroomRuler& ruler() const { return ruler_; }
@@ -89,10 +90,10 @@ class MotionMeasure {
   struct StrandHistory {
     StrandMeasure last;
     WorstMeasure worst;
-    std::vector<Vec3d> tips;          // seen from the root, in the head's frame [m]
+    std::vector<Vec3d> tips;          // relative to the root, in the head's frame [m]
     std::vector<double> coreLengths;  // [m]
     std::vector<double> energies;     // [J]; one a frame, or one fewer without velocities
-    std::vector<Vec3d> particles;     // of the last frame, seen as the tips [m]
+    std::vector<Vec3d> particles;     // of the last frame, relative to the root, in the head's frame [m]
   };
 
   GroomRuler ruler_;
@@ -101,37 +102,37 @@ class MotionMeasure {
   std::vector<FrameMeasure> frames_;
   std::size_t frameCount_ = 0;
   std::size_t freeFrame_ = 0;  // the last frame in which the head drove the hair
-  Vec3d meanRoots_[2];         // of the last two frames, later first [m]
+  Vec3d meanRoots_[2];         // of the last two frames, the later one first [m]
   Quatd headRotations_[2];     // likewise
 };
 
-/// The numbers that stand for a whole groom, one for each key of the program's JSON.
+/// The numbers that summarise a whole groom, one for each key of the program's JSON.
 struct CurlNumbers {
   std::size_t strandCount = 0, particleCount = 0, frameCount = 0;
-  double droop = 0;                // mean over strands, last frame [m]
-  double coreElongation = 1;       // mean over strands, last frame
-  double turns = 0;                // mean over strands that are curled at rest, last frame
-  double meanRadius = 0;           // mean over strands that are curled at rest, last frame [m]
-  bool handednessKept = true;      // by every strand over kHandKeptShare of its curled length, last frame
-  double arcDrift = 0;             // worst strand and frame, signed
-  double maxEdgeStretch = 1;       // worst strand and frame
-  double tipRotation = 0;          // worst strand of the last frame, signed, unwrapped [degrees]
-  std::optional<double> bounceHz;  // mean over the strands that bounce
-  std::optional<double> swayHz;    // mean over the strands that sway
-  std::optional<double> settleSeconds;  // of the last strand to settle; unset if one has not
+  double droop = 0;                     // mean over strands, last frame [m]
+  double coreElongation = 1;            // mean over strands, last frame
+  double turns = 0;                     // mean over strands that are curled at rest, last frame
+  double meanRadius = 0;                // mean over strands that are curled at rest, last frame [m]
+  bool handednessKept = true;           // every strand over kHandKeptShare of its curled length, last frame
+  double arcDrift = 0;                  // worst strand and frame, signed
+  double maxEdgeStretch = 1;            // worst strand and frame
+  double tipRotation = 0;               // worst strand of the last frame, signed, unwrapped [degrees]
+  std::optional<double> bounceHz;       // mean over the strands that bounce
+  std::optional<double> swayHz;         // mean over the strands that sway
+  std::optional<double> settleSeconds;  // of the last strand to settle; unset if some strand has not
   std::optional<double> energyRatio;    // of the whole groom; unset without motion
   double worstDroop = 0;                // greatest magnitude over strands and frames, signed [m]
   double worstCoreElongation = 1;       // largest over strands and frames
   double worstTipRotation = 0;          // greatest magnitude over strands and frames, signed [degrees]
 };
 
-/// Share of the curled length from which on a strand has kept its hand; where it changes hand at rest that
-/// place may wander a little.
+/// A strand has kept its handedness if this share of its curled length has; where it changes hand at rest,
+/// that place may move a little.
 inline constexpr double kHandKeptShare = 0.95;
 
-/// The report of one pose, without frames and motion.
+/// The report on a single pose, without frames and motion.
 CurlNumbers curlNumbers(const GroomRuler& ruler, std::span<const StrandMeasure> measures);
-/// The report of a motion.
+/// The report on a motion.
 CurlNumbers curlNumbers(const GroomRuler& ruler, const MotionReport& report);
 
 }  // namespace ringlet

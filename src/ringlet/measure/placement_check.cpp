@@ -16,13 +16,13 @@
 namespace ringlet {
 namespace {
 
-constexpr double kSmallBody = 0.05, kLargeBody = 20;  // as shares of the groom's size
-constexpr double kDeepRoots = 0.25;                   // of the body's size
+constexpr double kSmallBody = 0.05, kLargeBody = 20;  // relative to the groom's size
+constexpr double kDeepRoots = 0.25;                   // relative to the body's size
 constexpr double kOnShare = 0.2,
                  kNearEndShare = 0.1;  // of a strand's length: an end on a body; one that is further
-constexpr double kLeastClear = 0.005;  // at least [m]
+constexpr double kLeastClear = 0.005;  // an end off a body is at least this far away [m]
 
-// The groom as it stands in the world.
+// The groom's placement in the world.
 struct Stand {
   std::vector<Vec3d> roots;
   double meanLength = 0, size = 0;  // of strands; across all particles [m]
@@ -51,7 +51,7 @@ std::optional<std::string> doubtOfLength(double meanLength, double metresPerUnit
   return sentence;
 }
 
-// Across [m]; 0 for a plane.
+// Diameter [m]; 0 for a plane.
 double sizeOf(const Body& body) {
   const double reach = formOf(body.shape).reach(body);
   return std::isfinite(reach) ? 2 * reach : 0;
@@ -85,7 +85,7 @@ std::optional<std::string> doubtOfBody(const Body& body, const Stand& stand, con
   return std::nullopt;
 }
 
-// Which option turns these strands round, as the end of a sentence.
+// The option that reverses these strands, as the end of a sentence.
 std::string turnsRound(const RootEnds& byHead, std::size_t count) {
   const auto turned = static_cast<std::size_t>(std::ranges::count(byHead.isReversed, true));
   const bool isMost = 2 * count > byHead.isReversed.size();
@@ -137,7 +137,7 @@ std::optional<std::string> checkRootEnds(const Groom& groom, std::span<const Bod
   std::vector<EndDistances> distances(ends.first.size(), {HUGE_VAL, HUGE_VAL});
   std::string names;
   for (const Body& body : bodies) {
-    if (body.motion || sizeOf(body) == 0) continue;  // the head does not carry it
+    if (body.motion || sizeOf(body) == 0) continue;  // not carried by the head, or without a size
     names += (names.empty() ? "" : ", ") + body.name;
     const BodyPose pose = body.poseAt(0, head);
     const auto from = [&](Vec3d end) {
@@ -150,7 +150,7 @@ std::optional<std::string> checkRootEnds(const Groom& groom, std::span<const Bod
     }
   }
   if (names.empty() || distances.empty()) return std::nullopt;
-  // Hair that lies on shoulders ends there, and begins on a head that may be no body.
+  // Hair that lies on shoulders has its tips on a body, and its roots on a head that may be no body.
   const RootEnds byHead = findRootEnds(groom);
   if (byHead.head && std::ranges::count(byHead.isReversed, true) == 0) return std::nullopt;
   return doubtOfRootEnds(groom, byHead, distances, "the body " + names);

@@ -11,7 +11,7 @@
 namespace ringlet {
 namespace {
 
-// Root mean square distance of two curves over the same arc positions.
+// Root mean square distance of two curves with the same arc positions.
 double meanDistance(std::span<const Vec3d> a, std::span<const Vec3d> b, std::span<const double> at) {
   auto squareAt = [&](std::size_t i) { return dot(a[i] - b[i], a[i] - b[i]); };
   double sum = 0;
@@ -20,12 +20,12 @@ double meanDistance(std::span<const Vec3d> a, std::span<const Vec3d> b, std::spa
   return std::sqrt(sum / at.back());
 }
 
-// 0 where either has no direction.
+// 0 if either has no direction.
 double degreesBetween(Vec3d a, Vec3d b) {
   return std::atan2(length(cross(a, b)), dot(a, b)) * 180 / std::numbers::pi;
 }
 
-// A pose of the groom, measured.
+// The measures of a pose of the groom.
 struct Pose {
   std::span<const Vec3f> points;
   Quatd headRotation;
@@ -40,7 +40,7 @@ Result<Pose> measurePose(const GroomRuler& ruler, std::span<const Vec3f> points,
   return Pose{points, headRotation, std::move(*strands)};
 }
 
-// A strand with its root at the origin, as the head sees it [m].
+// A strand with its root at the origin, in the head's frame [m].
 std::vector<Vec3d> strandFromHead(const GroomRuler& ruler, const Pose& pose, double metresPerUnit,
                                   std::size_t s) {
   std::vector<Vec3d> strand = ruler.strandIn(pose.points, metresPerUnit, s);

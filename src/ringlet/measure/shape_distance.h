@@ -1,5 +1,5 @@
-// ShapeDistance: how far one pose of a strand is from another, as numbers without a scale, so that hair
-// simulated elsewhere, of whatever unit and material, can be compared with ours.
+// ShapeDistance: the difference between two poses of a strand, as numbers without a unit, so that hair
+// simulated elsewhere, with any unit and material, can be compared with ours.
 #pragma once
 
 #include <span>
@@ -11,21 +11,21 @@
 
 namespace ringlet {
 
-/// All of it with both roots at the origin. Distances are shares of the rest arc length. `turns` and `radius`
+/// Both roots are moved to the origin. Distances are relative to the rest arc length. `turns` and `radius`
 /// are 0 for a strand that is straight at rest.
 struct ShapeDistance {
-  double particles = 0;  // root mean square over arc length between corresponding particles
+  double particles = 0;  // root mean square over arc length of the distance of corresponding particles
   double tip = 0;        // between the tips
-  double core = 0;       // as `particles`, between the cores (core.h): where the strand hangs, whatever the
-                         // phase of its curl
+  double core = 0;       // as `particles`, between the cores (core.h): where the strand hangs, regardless of
+                         // the phase of its curl
   double direction = 0;  // between the chords of the cores [degrees]
-  double turns = 0;      // of the pose less those of the other, as a share of those at rest
-  double radius = 0;     // the same of the mean radius
+  double turns = 0;      // turns of the pose minus those of the other, relative to rest
+  double radius = 0;     // likewise for the mean radius
 };
 
-/// From `points` to `other`, one distance a strand. Both are in the groom's order and in one unit, and each
-/// is seen from its own head, which is fitted to its roots (head_fit.h). Errors: a particle that is not
-/// finite, with its strand. Cost: as GroomRuler::measure, four times.
+/// One distance per strand. Both poses are in the groom's order and in one unit, and each is relative to its
+/// own head, whose rotation is fitted to the roots (head_fit.h). Errors: a particle that is not finite, with
+/// its strand. Cost: that of GroomRuler::measure, four times.
 Result<std::vector<ShapeDistance>> shapeDistances(const GroomRuler& ruler, std::span<const Vec3f> points,
                                                   std::span<const Vec3f> other, double metresPerUnit);
 

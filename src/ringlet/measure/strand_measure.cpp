@@ -19,19 +19,21 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
-// Below this share of the mean edge an edge's own stretch is rounding: files hold 6e-6 beside 4e-2.
+// Edges shorter than this share of the mean edge are left out, since their stretch is rounding: files hold
+// edges of 6e-6 beside 4e-2.
 constexpr double kShortestEdgeShare = 1e-3;
 
-// Below this share of the mean radius the direction from the core is noise: a straight stretch of a curl.
+// Closer to the core than this share of the mean radius, the direction from the core is noise, as in a
+// straight part of a curl.
 constexpr double kSmallestOffsetShare = 0.05;
 
-// A stretch is curled if it winds by half a turn where a whole one is due.
+// A part of a strand is curled if its winding over one window, ideally a whole turn, is at least this.
 constexpr double kCurledTurns = 0.5;
 
-// Less winding than this in all has no hand [turns].
+// A strand with less total winding than this has no handedness [turns].
 constexpr double kLeastWinding = 0.25;
 
-// A core shorter than this share of the strand is a point (a flat ring): nothing can be a multiple of it.
+// A core shorter than this share of the strand is a point (a flat ring), to which no length can be compared.
 constexpr double kShortestCoreShare = 1e-6;
 
 double polylineLength(std::span<const Vec3d> points) {
@@ -90,7 +92,7 @@ Result<StrandRuler> StrandRuler::make(std::span<const Vec3d> rest) {
   ruler.restOffsets_ = ruler.offsetsFrom(core, rest, {});
   ruler.smallestOffset_ = kSmallestOffsetShare * ruler.meanRadius(ruler.restOffsets_);
 
-  // Which way each stretch winds.
+  // The direction of winding of each part.
   const std::vector<double> winding = ruler.windingOf(ruler.restOffsets_);
   for (std::size_t i = 0; i < rest.size(); ++i) {
     ruler.restWindow_.push_back(ruler.windingOverATurn(winding, ruler.at_[i]));
@@ -115,7 +117,7 @@ StrandMeasure StrandRuler::measureFinite(std::span<const Vec3d> points, Vec3d up
                                          const Offsets& offsets, double coreLength) const {
   StrandMeasure measured;
 
-  // The tip, seen from the root.
+  // The tip relative to the root.
   const Vec3d tip = points.back() - points.front();
   const Vec3d restTip = rotate(headRotation, points_.back() - points_.front());
   measured.droop = dot(restTip - tip, up);
@@ -144,7 +146,7 @@ StrandMeasure StrandRuler::measureFinite(std::span<const Vec3d> points, Vec3d up
   measured.winding = winding.back();
   if (std::abs(measured.winding) >= kLeastWinding) measured.handedness = signOf(measured.winding);
 
-  // Its hand, a turn at a time.
+  // Handedness, turn by turn.
   double curled = 0, kept = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (std::abs(restWindow_[i]) < kCurledTurns) continue;
@@ -153,8 +155,7 @@ StrandMeasure StrandRuler::measureFinite(std::span<const Vec3d> points, Vec3d up
   }
   if (curled > 0) measured.handednessKept = kept / curled;
 
-  // The last turn beside itself at rest. A core that is off by a constant adds e conj(z), which a turn
-  // cancels.
+  // The last turn compared with rest. A constant error of the core adds e conj(z), which cancels over a turn.
   std::complex<double> turn = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (at_[i] > arcLength() - window_) turn += weights_[i] * offsets[i] * std::conj(restOffsets_[i]);
@@ -175,7 +176,7 @@ StrandRuler::Offsets StrandRuler::offsetsFrom(std::span<const Vec3d> core, std::
   return offsets;
 }
 
-// Turns about the core from the root to each particle. A particle on the core leaves them as they are.
+// Turns about the core from the root to each particle. A particle on the core adds nothing.
 std::vector<double> StrandRuler::windingOf(const Offsets& offsets) const {
   std::vector<double> winding;
   winding.reserve(offsets.size());
@@ -191,7 +192,7 @@ std::vector<double> StrandRuler::windingOf(const Offsets& offsets) const {
   return winding;
 }
 
-// Turns in the window about s, which stays whole at the ends.
+// Turns within the window around s; at the ends the window is shifted, not cut.
 double StrandRuler::windingOverATurn(std::span<const double> winding, double s) const {
   auto at = [&](double where) {
     const auto above = std::upper_bound(at_.begin() + 1, at_.end() - 1, where);

@@ -1,5 +1,5 @@
-// StrandMeasure: how one strand looks beside its rest shape, as a handful of numbers that do not depend on
-// how finely it is cut: the same helix measures the same, within 1 %, from 4 particles a turn on.
+// StrandMeasure: a strand's shape compared with its rest shape, as a few numbers that hardly depend on the
+// number of particles: the same helix gives the same values within 1 % with at least 4 particles a turn.
 #pragma once
 
 #include <complex>
@@ -14,7 +14,7 @@
 namespace ringlet {
 
 /// Lengths in metres. "At rest" means the rest strand as the head carries it: moved with the strand's root,
-/// turned with the head. Of a strand that is straight at rest (curl_shape.h) turns, winding, handedness and
+/// turned with the head. For a strand that is straight at rest (curl_shape.h) turns, winding, handedness and
 /// tipRotation are 0 and handednessKept is 1.
 struct StrandMeasure {
   double droop = 0;            // how far the tip is below its place at rest, along up [m]; negative: above
@@ -26,12 +26,12 @@ struct StrandMeasure {
   double arcDrift = 0;         // sum of edge lengths / that at rest - 1
   double maxEdgeStretch = 1;   // largest edge length / rest edge length; edges shorter than a thousandth of
                                // the mean do not count, their length is rounding
-  double turns = 0;    // about the core, each stretch counted positive if it winds as it does at rest: a curl
+  double turns = 0;    // about the core, counted positive in each part that winds as it does at rest: a curl
                        // that changes hand half way (a perversion) has all its turns
   double winding = 0;  // the same signed, right-handed positive: a perversion's halves cancel
   double meanRadius = 0;      // mean distance from the core, over arc length [m]
-  int handedness = 0;         // of the winding: +1 right, -1 left, 0 straight or as much one as the other
-  double handednessKept = 1;  // share of the curled length whose hand, over a turn, is that at rest
+  int handedness = 0;         // of the winding: +1 right, -1 left, 0 straight or balanced
+  double handednessKept = 1;  // share of the curled length whose handedness over a turn is that at rest
   double tipRotation = 0;     // of the last turn about the core against rest, in (-180, 180] [degrees]; mean
                            // over that turn, in which errors of the core cancel. Measured in a frame that the
                            // head carries at the root and that follows the core without twist; right-handed
@@ -41,15 +41,15 @@ struct StrandMeasure {
 /// `angle` plus whole turns so that it is within half a turn of `before` [degrees].
 double unwrapDegrees(double angle, double before);
 
-/// What a strand is measured against: its rest shape, with everything that can be computed once.
+/// The rest shape of a strand, with everything about it that can be computed once.
 class StrandRuler {
  public:
   /// rest: root first, in metres. Errors: fewer than two particles, one that is not finite, no length.
   /// Cost: as measure().
   static Result<StrandRuler> make(std::span<const Vec3d> rest);
 
-  /// points: as many as at rest, in metres. headRotation: of the head against the rest pose. up: unit vector.
-  /// Errors: a particle that is not finite. Cost: n log n, some 0.3 us a particle.
+  /// points: as many as at rest, in metres. headRotation: of the head relative to the rest pose. up: unit
+  /// vector. Errors: a particle that is not finite. Cost: n log n, some 0.3 us a particle.
   Result<StrandMeasure> measure(std::span<const Vec3d> points, Vec3d up, Quatd headRotation = {}) const;
 
   /// The rest shape itself, measured.
@@ -74,15 +74,15 @@ class StrandRuler {
 
   std::vector<Vec3d> points_;
   std::vector<double> at_;       // arc position of each particle [m]
-  std::vector<double> weights_;  // arc length each particle stands for [m]
+  std::vector<double> weights_;  // arc length that each particle represents [m]
   CurlShape shape_;
   double window_ = 0;                                                              // of the core [m]
   double restCoreLength_ = 0, restChord_ = 0, restLength_ = 0, shortestEdge_ = 0;  // [m]
-  double smallestOffset_ = 0;  // nearer to the core a particle has no direction from it [m]
+  double smallestOffset_ = 0;  // closer to the core a particle has no direction from it [m]
   MeasuringFrame rootFrame_;
   Offsets restOffsets_;
   std::vector<double> restWindow_;  // winding at rest over the turn about each particle [turns]
-  std::vector<int> edgeHand_;       // sign of the same about each edge
+  std::vector<int> edgeHand_;       // sign of the same for each edge
   StrandMeasure rest_;
 };
 

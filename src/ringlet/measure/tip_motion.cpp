@@ -13,11 +13,11 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kClosingSeconds = 1;
-constexpr double kSettledShare = 0.01;  // of the greatest excursion
+constexpr double kSettledShare = 0.01;  // relative to the greatest excursion
 constexpr std::size_t kFewestFrames = 8;
-constexpr std::size_t kPadding = 8;     // grid of frequencies finer than the path's own by this
-constexpr double kLeastPower = 0.05;    // of the greatest: 22 % of its amplitude
-constexpr double kFewestPeriods = 1.5;  // below, a slow creep looks like an oscillation
+constexpr std::size_t kPadding = 8;     // factor by which the frequency grid is finer than that of the path
+constexpr double kLeastPower = 0.05;    // relative to the greatest power: 22 % of its amplitude
+constexpr double kFewestPeriods = 1.5;  // with fewer, a slow creep looks like an oscillation
 
 // The mean of the closing frames.
 template <class T>
@@ -28,7 +28,7 @@ T closingMean(std::span<const T> values, double framesPerSecond) {
   return sum / static_cast<double>(count);
 }
 
-// The direction in which the displacements spread most, by power iteration on their covariance.
+// The direction in which displacements vary most, by power iteration on their covariance.
 Vec3d dominantDirection(std::span<const Vec3d> displacements) {
   std::array<Vec3d, 3> rows{};
   for (Vec3d d : displacements) {
@@ -75,7 +75,8 @@ std::size_t closingFrameCount(std::size_t frameCount, double framesPerSecond) {
 std::optional<double> strongestFrequency(std::span<const double> signal, double framesPerSecond) {
   if (signal.size() < kFewestFrames) return std::nullopt;
 
-  // Faded out towards its end, so that a motion cut short has no side lobes; its start is a true start.
+  // A window that fades the signal out towards its end, so that cutting it off causes no side lobes; its
+  // start is a real start.
   std::size_t size = 1;
   while (size < kPadding * signal.size()) size *= 2;
   std::vector<std::complex<double>> values(size);
@@ -85,7 +86,7 @@ std::optional<double> strongestFrequency(std::span<const double> signal, double 
   }
   fourierTransform(values);
 
-  // The highest peak. A signal that only dies away has its power at 0 and no peak.
+  // The highest peak. A signal that only decays has its power at 0 and no peak.
   const double step = framesPerSecond / static_cast<double>(size);
   const double lowest = kFewestPeriods * framesPerSecond / static_cast<double>(signal.size());
   auto power = [&](std::size_t k) { return std::norm(values[k]); };
@@ -99,7 +100,7 @@ std::optional<double> strongestFrequency(std::span<const double> signal, double 
   }
   if (highest == 0 || power(highest) < kLeastPower * most) return std::nullopt;
 
-  // Its place between the grid's frequencies, by a parabola.
+  // Its place between grid frequencies, by a parabola.
   const double before = power(highest - 1), after = power(highest + 1);
   const double curvature = before - 2 * power(highest) + after;
   const double shift = curvature < 0 ? (before - after) / (2 * curvature) : 0;
@@ -153,7 +154,7 @@ std::optional<double> settleSeconds(std::span<const Vec3d> path, double framesPe
     const double distance = length(path[k] - final);
     if (distance <= limit) continue;
     if (k >= closing) return std::nullopt;
-    // Where it went below the limit, between this frame and the next.
+    // The time at which it went below the limit, between this frame and the next.
     const double crossing = (distance - limit) / (distance - length(path[k + 1] - final));
     const double frames = static_cast<double>(k) + crossing - static_cast<double>(freeFrame);
     return std::max(0.0, frames / framesPerSecond);

@@ -10,7 +10,7 @@
 namespace ringlet {
 namespace {
 
-// The tip of strand s from its root [m], along world axes.
+// The tip of strand s relative to its root [m], along world axes.
 Vec3d tipFromRoot(const Groom& rest, std::span<const Vec3f> points, std::size_t s) {
   const Vec3d root(points[rest.firstPoint[s]]), tip(points[rest.firstPoint[s + 1] - 1]);
   return (tip - root) * rest.metresPerUnit;
