@@ -1,4 +1,4 @@
-// The `ringlet` command: turns a wrong command line into advice, and a failure into an exit status.
+// The `ringlet` command: gives advice on a wrong command line, and an exit status for a failure.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -44,9 +44,9 @@ int run(int argumentCount, char** arguments) {
     if (std::ferror(stdout) == 0) {
       say("ringlet: {}\n", error.what());
       return kExitFailed;
-    }  // else it is of what could not be printed
+    }  // the error is about printing itself
   }
-  // A full disk or a closed pipe behind standard output is a failure too: someone waits for that text.
+  // A full disk or a closed pipe behind standard output is a failure too, since the text is lost.
   const bool isWritten = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
   if (!isWritten && exitCode == kExitFine) {
     say("ringlet: cannot write to standard output\n");

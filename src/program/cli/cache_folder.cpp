@@ -6,7 +6,7 @@
 namespace ringlet::program {
 namespace {
 
-// An empty variable is none; so, for a cache, is a relative path.
+// An empty variable counts as unset, and so does a relative path.
 std::filesystem::path folderIn(const char* variable) {
   const char* value = std::getenv(variable);
   const std::filesystem::path path = value ? value : "";

@@ -1,4 +1,4 @@
-// The folder of data that only saves time.
+// The folder of cached data, which only saves time.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// The types of CLI11 that headers of the program name. A file that does more than pass them on includes
-// CLI/CLI.hpp, which takes seconds to compile.
+// Declares the types of CLI11 that headers of the program name. Files that use them include CLI/CLI.hpp,
+// which takes seconds to compile.
 #pragma once
 
 namespace CLI {

@@ -17,7 +17,7 @@
 namespace ringlet::program {
 namespace {
 
-// The subcommand the user meant, innermost: `make curl`, not `make`.
+// The innermost subcommand on the command line: `make curl`, not `make`.
 const CLI::App& innermost(const CLI::App& app) {
   const auto chosen = app.get_subcommands();
   return chosen.empty() ? app : innermost(*chosen.front());
@@ -27,7 +27,7 @@ std::string fullName(const CLI::App& app) {
   return app.get_parent() ? fullName(*app.get_parent()) + " " + app.get_name() : app.get_name();
 }
 
-// "Could not convert: --seed = 99999999999", of a number that no check had looked at.
+// Rewrites CLI11's message "Could not convert: --seed = 99999999999" about a number without a check.
 std::string outOfRange(const std::string& what) {
   const std::size_t colon = what.find(": "), equals = what.find(" = ");
   if (colon == std::string::npos || equals == std::string::npos || equals < colon) return what;
@@ -63,7 +63,7 @@ CLI::Validator between(double low, double high) {
         char* end = nullptr;
         const double value = std::strtod(text.c_str(), &end);
         const bool isNumber = end != text.c_str() && *end == '\0';
-        if (isNumber && value >= low && value <= high) return std::string();  // NaN is neither
+        if (isNumber && value >= low && value <= high) return std::string();  // false for NaN
         return fmt::format("must be a number from {} to {}, not '{}'", low, high, text);
       },
       "");
@@ -116,7 +116,7 @@ std::string usageMessage(const CLI::App& app, const CLI::ParseError& error) {
   std::string what = error.what();
   if (dynamic_cast<const CLI::ConversionError*>(&error)) what = outOfRange(what);
 
-  // The first word nobody knows: an option, or a subcommand where one was due.
+  // The first unknown word: an option, or a subcommand where one is required.
   const std::vector<std::string> unknown = app.remaining(true);
   std::vector<std::string> commands;
   const auto subcommands = command.get_subcommands([](const CLI::App*) { return true; });

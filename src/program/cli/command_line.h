@@ -1,4 +1,4 @@
-// Shared by the subcommands: checks of options, whose messages say what is allowed.
+// Shared by the subcommands: checks of options, with messages that say what is allowed.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,12 @@ std::string closestName(std::string_view word, const std::vector<std::string>& n
 /// "; did you mean NAME?", or nothing if none is near.
 std::string suggestion(std::string_view word, const std::vector<std::string>& names);
 
-/// Accepts one of these names only, and suggests the closest to any other.
+/// Accepts only these names; the message suggests the closest one.
 CLI::Validator oneOf(std::vector<std::string> names);
 
 /// Accepts finite numbers from low to high.
 CLI::Validator between(double low, double high);
-/// The same for whole numbers.
+/// The same for integers.
 CLI::Validator wholeBetween(std::int64_t low, std::int64_t high);
 
 /// Accepts a path that ends in one of these extensions, in either case.
@@ -31,12 +31,12 @@ CLI::Validator endsIn(std::vector<std::string> extensions);
 CLI::Option* addBackendOption(CLI::App& command, std::string& backend);
 CLI::Option* addDeviceOption(CLI::App& command, std::string& device);
 
-/// Of `--subgroup`, in simulate and scene.
+/// Help of `--subgroup`, in simulate and scene.
 inline constexpr const char* kSubgroupHelp =
     "Invocations of a subgroup of the strand kernel: one of the widths `ringlet devices` shows (default: "
     "chosen by device, or as `ringlet tune` measured)";
 
-/// What to print for a command line that CLI11 refused: which subcommand, what is wrong, the closest name.
+/// The message for a command line that CLI11 refused: the subcommand, what is wrong, the closest name.
 std::string usageMessage(const CLI::App& app, const CLI::ParseError& error);
 
 }  // namespace ringlet::program

@@ -1,4 +1,4 @@
-// --confined, of every command that reads a scene file.
+// The option --confined of commands that read a scene file.
 #pragma once
 
 #include <filesystem>
@@ -10,8 +10,8 @@ namespace ringlet::program {
 
 void addConfinedOption(CLI::App& command, SceneReach& reach);
 
-/// Fails where a folder that a confined scene names for its results holds a symbolic link, by which they
-/// could be written elsewhere. Nothing to say of a folder that is not there.
+/// Fails if the output folder of a confined scene contains a symbolic link, through which results could be
+/// written elsewhere. A folder that does not exist is fine.
 Status checkHoldsNoLinks(const std::filesystem::path& folder);
 
 }  // namespace ringlet::program

@@ -16,7 +16,7 @@ constexpr const char* kGroup = "Contacts";
 constexpr const char *kOn = "contacts.on", *kMethod = "contacts.method", *kPrunes = "contacts.prune_pairs",
                      *kMinOverlaps = "contacts.min_overlaps";
 
-// A level of pruning: none, or overlaps from 1 on.
+// A pruning level: off, or a number of overlaps, at least 1.
 CLI::Validator pruneLevel() {
   const NumberRange allowed = fieldNamed(contactFields(), "min_overlaps")->allowed;
   const CLI::Validator number =

@@ -1,4 +1,4 @@
-// The group of options "Contacts": keys of [contacts], and two options that say several of them.
+// The option group "Contacts": keys of [contacts], and two options that set several of them.
 #pragma once
 
 #include <optional>
@@ -9,17 +9,17 @@
 
 namespace ringlet::program {
 
-/// Adds the group. defaultState: what --help says where --contacts is left out. `typed` must outlive the
-/// command.
+/// Adds the group. defaultState: the state that --help gives for a missing --contacts. `typed` must outlive
+/// the command.
 void addContactOptions(CLI::App& command, TypedKeys& typed, const std::string& defaultState);
 
-/// On or off, as typed; unset: neither.
+/// On or off as typed; none if it was not typed.
 std::optional<bool> typedContacts(const TypedKeys& typed);
 
 /// Throws CLI11's error for options that exclude each other.
 void checkContactOptions(const TypedKeys& typed);
 
-/// Throws CLI11's error for an option that says how contacts are, where `reason` says that there are none.
+/// Throws CLI11's error for any option about contacts; `reason` says why there are no contacts.
 void refuseContactOptions(const TypedKeys& typed, const std::string& reason);
 
 }  // namespace ringlet::program

@@ -1,4 +1,4 @@
-// What the program returns to the shell.
+// The exit statuses of the program.
 #pragma once
 
 #include "program/cli/standard_error.h"
@@ -7,17 +7,17 @@
 namespace ringlet::program {
 
 inline constexpr int kExitFine = 0;
-inline constexpr int kExitFailed = 1;         // the world's fault, and none of those below
-inline constexpr int kExitUsage = 2;          // the command line makes no sense
+inline constexpr int kExitFailed = 1;         // an environment failure that is none of those below
+inline constexpr int kExitUsage = 2;          // the command line is invalid
 inline constexpr int kExitNonfinite = 3;      // the run ended, but some particles have no position
-inline constexpr int kExitInput = 4;          // a file that cannot be read, or is not what it should be
-inline constexpr int kExitOutput = 5;         // a file or folder that cannot be written
-inline constexpr int kExitDiskFull = 6;       // or a quota, or the size a file may have
+inline constexpr int kExitInput = 4;          // a file cannot be read, or has the wrong content
+inline constexpr int kExitOutput = 5;         // a file or folder cannot be written
+inline constexpr int kExitDiskFull = 6;       // or the quota or the maximum file size is reached
 inline constexpr int kExitBusy = 7;           // another run has the folder
-inline constexpr int kExitHostMemory = 8;     // is used up
-inline constexpr int kExitDeviceMemory = 9;   // likewise
+inline constexpr int kExitHostMemory = 8;     // host memory is used up
+inline constexpr int kExitDeviceMemory = 9;   // device memory is used up
 inline constexpr int kExitDeviceLost = 10;    // the driver gave up on the device
-inline constexpr int kExitCompile = 11;       // the driver does not make a kernel
+inline constexpr int kExitCompile = 11;       // the driver cannot compile a kernel
 inline constexpr int kExitInterrupted = 130;  // Ctrl-C, as shells have it: 128 + SIGINT
 
 inline int exitCodeOf(const Error& error) {
@@ -44,7 +44,7 @@ inline int exitCodeOf(const Error& error) {
   return kExitFailed;
 }
 
-/// Says what ended the command and returns its exit status.
+/// Prints what ended the command and returns its exit status.
 inline int fail(const char* command, const Error& error) {
   say("ringlet {}: {}\n", command, error.message);
   return exitCodeOf(error);

@@ -1,4 +1,4 @@
-// Which frames of an animation: "12:24", or "12" for one.
+// A range of an animation's frames: "12:24", or "12" for a single one.
 #pragma once
 
 #include <optional>
@@ -8,12 +8,12 @@
 
 namespace ringlet::program {
 
-/// From 1; `first` is not after `last`.
+/// Frames count from 1; first <= last.
 struct FrameRange {
   int first = 1, last = 1;
 };
 
-/// None where the text is no such range.
+/// None if the text is not such a range.
 std::optional<FrameRange> parseFrameRange(const std::string& text);
 
 /// Accepts such a text.

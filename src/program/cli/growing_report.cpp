@@ -15,7 +15,7 @@
 namespace ringlet::program {
 namespace {
 
-// Not UTF-8, say in a driver's name, is replaced rather than fatal.
+// Text that is not UTF-8, for example in a driver's name, is replaced; it is no error.
 std::string textOf(const nlohmann::ordered_json& json) {
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }

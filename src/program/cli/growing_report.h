@@ -1,5 +1,5 @@
-// A report that grows: what is known so far is in its file, whole, so that a process that is killed leaves
-// it.
+// A report that is rewritten as results arrive, as a whole file each time, so that a killed process leaves
+// what was known.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@ namespace ringlet::program {
 
 class GrowingReport {
  public:
-  /// Empty: there is no file. Where the path is a pipe or a device it gets what finish is given, and no more.
+  /// Empty path: no file is written. A pipe or a device only gets the final report, by finish.
   explicit GrowingReport(std::filesystem::path path);
 
   bool isThere() const { return !path_.empty(); }

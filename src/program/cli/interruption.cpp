@@ -12,11 +12,11 @@
 namespace ringlet::program {
 namespace {
 
-// The signal may come to any thread.
+// The signal may arrive on any thread.
 std::atomic<int> interrupted = 0;
 static_assert(std::atomic<int>::is_always_lock_free);
 
-std::atomic<int> unheard = 0;      // EndsUnheard that live
+std::atomic<int> unheard = 0;      // number of living EndsUnheard
 constexpr unsigned kPatience = 2;  // [s]
 
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
@@ -26,19 +26,19 @@ bool isIgnored(int signal) {
   return sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
 }
 
-// Only what a signal's handler may call, which sigaction and raise are.
+// Calls only functions that are allowed in a signal handler, such as sigaction and raise.
 void noteInterruption(int signal) {
   const bool isSecond = interrupted.exchange(1) != 0;
-  // The next one, of whatever kind, finds the system's own handler.
+  // For the next signal of any kind the system's own handler runs.
   for (const int each : kSignals) {
     if (!isIgnored(each)) std::signal(each, SIG_DFL);
   }
-  // Both were there before either was handled.
+  // The second signal arrived before the first was handled.
   if (isSecond) raise(signal);
   if (unheard > 0) alarm(kPatience);
 }
 
-// Only what a signal's handler may call.
+// Calls only functions that are allowed in a signal handler.
 void endUnheard(int) {
   if (unheard == 0) return;
   constexpr std::string_view kText = "ringlet: interrupted while the driver was at work; nothing is lost\n";
@@ -51,9 +51,9 @@ void endUnheard(int) {
 void catchInterruption() {
   struct sigaction action {};
   action.sa_handler = noteInterruption;
-  action.sa_flags = SA_RESTART;  // no file operation fails because of the first
+  action.sa_flags = SA_RESTART;  // file operations do not fail because of the first signal
   for (const int signal : kSignals) {
-    if (!isIgnored(signal)) sigaction(signal, &action, nullptr);  // as nohup asks for
+    if (!isIgnored(signal)) sigaction(signal, &action, nullptr);  // stays ignored, as under nohup
   }
   struct sigaction late {};
   late.sa_handler = endUnheard;

@@ -1,20 +1,20 @@
-// Signals: Ctrl-C, noticed between frames so that what is finished can be kept, and those that are failures
-// of a call.
+// Signals: Ctrl-C, which is noticed between frames so that finished ones are kept, and signals that mean a
+// failed call.
 #pragma once
 
 namespace ringlet::program {
 
 /// From now on the first Ctrl-C (or SIGTERM, SIGHUP, SIGQUIT) only sets a flag; the second ends the program
-/// at once. A signal that is ignored stays so. Output that nobody reads any more is lost, and ends nothing.
+/// at once. Ignored signals stay ignored. Writing to a closed pipe does not end the program.
 void catchInterruption();
 
-/// Whether it has come.
+/// Whether the first signal has come.
 bool wasInterrupted();
 
-/// Where the driver may be at work for minutes, in which nobody asks: while one of these lives, a first
-/// signal that is not heard for two seconds ends the program with kExitInterrupted. Only where that loses
-/// nothing: no file is written that is not replaced as a whole, and no other thread writes one.
-/// catchInterruption comes before.
+/// For phases in which the driver may work for minutes without anyone checking the flag: while one of these
+/// lives, a first signal that is not noticed within two seconds ends the program with kExitInterrupted. Use
+/// it only where this loses nothing: every file is replaced as a whole, and no other thread writes files.
+/// Call catchInterruption before.
 class EndsUnheard {
  public:
   EndsUnheard();
@@ -22,7 +22,7 @@ class EndsUnheard {
   EndsUnheard(const EndsUnheard&) = delete;
 };
 
-/// A file larger than the process may write (RLIMIT_FSIZE) fails to be written, and does not end the program.
+/// Makes writing a file beyond RLIMIT_FSIZE fail instead of ending the program.
 void failInsteadOfEnding();
 
 }  // namespace ringlet::program

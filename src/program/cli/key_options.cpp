@@ -23,9 +23,9 @@ namespace {
 
 struct KeyOption {
   const char *option, *table, *key;
-  const char* type = "";     // in the help; "": by the kind of value
-  const char* without = "";  // a key of the table in whose place it stands
-  const char* turnsOn = "";  // a switch of the table without which it would say nothing
+  const char* type = "";     // for the help; "": from the kind of value
+  const char* without = "";  // a key of the table that this one replaces
+  const char* turnsOn = "";  // a switch of the table that must be on for this key to have an effect
 
   std::string fullKey() const { return fmt::format("{}.{}", table, key); }
 };
@@ -88,7 +88,7 @@ constexpr KeyOption kKeyOptions[] = {
     {"--usd-prims", "output", "prims", "WHOSE"},
 };
 
-// Of "simulation.gravity"; null where the key has no option.
+// The row of "simulation.gravity"; null if the key has no option.
 const KeyOption* rowOf(std::string_view key) {
   const auto* found = std::ranges::find(kKeyOptions, key, &KeyOption::fullKey);
   return found == std::end(kKeyOptions) ? nullptr : found;
@@ -107,7 +107,7 @@ bool isWhole(const SceneKey& key) { return key.type == "whole number"; }
 bool isSwitch(const SceneKey& key) { return key.type == "true or false"; }
 bool isList(const SceneKey& key) { return key.type.starts_with("list"); }
 
-// As the key's value stands in a file; what the check of the option let through.
+// The value as it would be in a scene file. The option's check has passed.
 SceneChange changeOf(const SceneKey& key, const std::string& typed, std::vector<std::string> without) {
   using Form = SceneChange::Form;
   SceneChange change{key.table + "." + key.key, typed, Form::text, std::move(without)};
@@ -137,7 +137,7 @@ std::string typeNameOf(const KeyOption& option, const SceneKey& key) {
   return isWhole(key) ? "N" : "NAME";
 }
 
-// The key's effect, "(from 0 to 1 m; default 0)" behind it.
+// The effect of the key, followed by "(from 0 to 1 m; default 0)".
 std::string helpOf(const SceneKey& key) {
   const std::string range = isSwitch(key) ? "on or off" : key.range.empty() ? key.type : key.range;
   const std::string standard = key.standard == "true" ? "on" : key.standard == "false" ? "off" : key.standard;
@@ -174,7 +174,7 @@ void addOption(CLI::App& command, TypedKeys& typed, const KeyOption& row, const 
   if (!group.empty()) option->group(group);
 }
 
-// What a scene says of keys, by the names of the options that said them.
+// Rewrites a scene's message about keys with the names of the options that set them.
 CLI::ValidationError usageError(const Error& error, const TypedKeys& typed) {
   std::string message = error.message;
   std::string first = typed.options.empty() ? "--set" : optionNamed(typed.options.front().key);
@@ -189,7 +189,7 @@ CLI::ValidationError usageError(const Error& error, const TypedKeys& typed) {
   return CLI::ValidationError(first, message);
 }
 
-// What a table's presence switches on, an option of its keys does not.
+// Options of a table's keys alone do not switch on what the presence of the table would.
 std::vector<SceneChange> settled(const TypedKeys& typed, const std::function<Result<SceneFile>()>& untyped) {
   std::vector<SceneChange> changes = typed.changes();
   const bool isOfContacts = std::ranges::any_of(
@@ -200,7 +200,7 @@ std::vector<SceneChange> settled(const TypedKeys& typed, const std::function<Res
   return changes;
 }
 
-// Reads with changes; what fails because of them is a wrong command line.
+// Reads a scene with changes. An error that only they cause is a usage error.
 Result<SceneFile> readWith(
     const TypedKeys& typed,
     const std::function<Result<SceneFile>(const std::vector<SceneChange>& changes)>& read) {
@@ -210,7 +210,7 @@ Result<SceneFile> readWith(
   throw usageError(scene.error(), typed);
 }
 
-// The options alone, as a scene has them.
+// A scene that consists of the options only.
 SceneFile sceneOfOptions(const TypedKeys& typed, bool upIsZ = false) {
   const std::string text = fmt::format("[groom]\nfile = \"-\"\nup = \"{}\"\n", upIsZ ? 'Z' : 'Y');
   auto scene = parseScene(text, "the options", {}, typed.options);

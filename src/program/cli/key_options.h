@@ -1,5 +1,5 @@
-// Options that are keys of a scene under a name of their own, made from what sceneKeys() says of the key; and
-// --set, which takes any key. Both end as changes of the scene (scenes/file/scene_file.h).
+// Options that set a key of a scene and have a name of their own; they are made from sceneKeys(). And --set,
+// which sets any key. Both become changes of the scene (scenes/file/scene_file.h).
 #pragma once
 
 #include <string>
@@ -14,50 +14,50 @@
 
 namespace ringlet::program {
 
-/// Keys as typed. What stands later goes over what stands before; --set goes over options.
+/// Keys as typed. Later ones override earlier ones; --set overrides options.
 struct TypedKeys {
   std::vector<SceneChange> options;
   std::vector<std::string> sets;  // KEY=VALUE
 
-  /// Whether an option, not --set, says this key ("simulation.gravity").
+  /// Whether an option, not --set, sets this key ("simulation.gravity").
   bool has(std::string_view key) const;
-  /// The first option that was typed of a key of this table; "" for none.
+  /// The first option typed that sets a key of this table; "" if none does.
   std::string optionOf(std::string_view table) const;
   bool isEmpty() const { return options.empty() && sets.empty(); }
   std::vector<SceneChange> changes() const;
 };
 
-/// Adds the options of a table's keys ("groom.cut"), in a group of the help. `typed` must outlive the
+/// Adds the options for the keys of a table ("groom.cut") as a group of the help. `typed` must outlive the
 /// command.
 void addKeyOptions(CLI::App& command, TypedKeys& typed, std::string_view table, const std::string& group);
 
-/// Adds the options of these keys only, each with its table.
+/// Adds only the options for these keys, each given with its table.
 void addOptionsOfKeys(CLI::App& command, TypedKeys& typed, const std::vector<std::string_view>& keys,
                       const std::string& group = "");
 
-/// The option of a key ("--gravity"); "" where it has none.
+/// The option that sets a key ("--gravity"); "" if there is none.
 std::string optionNamed(std::string_view key);
 
 /// Adds --set.
 void addSetOption(CLI::App& command, TypedKeys& typed, const std::string& group = "");
 
-/// The scene of a file, keys as typed. Throws CLI11's error for keys that the scene does not take, by the
-/// names of their options. Errors: those of the file.
+/// Reads a scene file with keys as typed. Throws CLI11's error, with the names of options, for keys that the
+/// scene refuses. Errors: those of the file.
 Result<SceneFile> readTypedScene(const std::filesystem::path& file, const TypedKeys& typed, SceneReach reach);
 
-/// The same, or of a groom's file, whose head then moves as the built-in motion `motion`.
+/// The same; or for a groom's file a scene whose head moves as the built-in motion `motion`.
 Result<SceneFile> readTyped(const std::filesystem::path& input, const TypedKeys& typed, SceneReach reach,
                             const char* motion);
 
 /// The same from a scene's text.
 Result<SceneFile> parseTyped(std::string_view text, const std::string& name, const TypedKeys& typed);
 
-/// Adds the options of how hairs that follow strands differ from them.
+/// Adds the options for how following hairs differ from their strands.
 void addHairLookOptions(CLI::App& command, TypedKeys& typed);
-/// What was typed of them. Throws CLI11's error for what a scene refuses, as an empty path.
+/// The values typed for these. Throws CLI11's error for what a scene refuses, such as an empty path.
 HairLook hairLookOf(const TypedKeys& typed);
 
-/// How a groom's file is read, options of [groom] as typed.
+/// How a groom's file is read, with the options of [groom] as typed.
 GroomReading readingOf(const TypedKeys& typed, bool upIsZ = false);
 
 }  // namespace ringlet::program

@@ -12,9 +12,9 @@
 namespace ringlet::program {
 namespace {
 
-constexpr int kBarWidth = 30;  // characters of the bar itself; the line fits a terminal of 80
-constexpr std::chrono::milliseconds kPause{80};  // between two updates: often enough to look alive
-constexpr std::chrono::seconds kLinePause{30};   // between two lines of a log
+constexpr int kBarWidth = 30;                    // characters of the bar itself; the line fits 80 columns
+constexpr std::chrono::milliseconds kPause{80};  // between updates: often enough to look alive
+constexpr std::chrono::seconds kLinePause{30};   // between lines of a log
 
 std::string clockTime(double seconds) {
   const auto whole = static_cast<long>(std::ceil(seconds));

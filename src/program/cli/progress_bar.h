@@ -1,5 +1,5 @@
-// ProgressBar: how far a run is and how long it will take. On a terminal one line that changes; elsewhere, as
-// in a log, a line every half minute.
+// ProgressBar: the progress of a run and the time left. On a terminal one line that changes; otherwise, as in
+// a log, a line every half minute.
 #pragma once
 
 #include <chrono>
@@ -9,18 +9,18 @@ namespace ringlet::program {
 
 class ProgressBar {
  public:
-  /// `first`: what is done before it begins.
+  /// `first`: frames done before the run begins.
   ProgressBar(int first, int count, bool wanted, const char* what = "frame");
   ~ProgressBar() { clear(); }
   ProgressBar(const ProgressBar&) = delete;
 
   void show(int finished);
-  /// Leaves an empty line for what comes next.
+  /// Removes the bar, so that other output starts on an empty line.
   void clear();
 
  private:
   using Clock = std::chrono::steady_clock;
-  /// "2:05 left"; "" as long as it cannot be told.
+  /// "2:05 left"; "" while it cannot be estimated.
   std::string leftAfter(int finished) const;
 
   int first_, count_;

@@ -1,4 +1,4 @@
-// What the program says on standard error.
+// Output on standard error.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,11 +12,11 @@
 
 namespace ringlet::program {
 
-/// To a terminal or a file as it is: what the program itself commands a terminal with, and nothing of a file.
+/// Writes text unchanged: only for control sequences of the program itself, never for text from files.
 inline void sayAsItIs(std::string_view line) { (void)std::fwrite(line.data(), 1, line.size(), stderr); }
 
-/// As fmt::print, but it never fails: where standard error is closed or full nobody hears, and the work goes
-/// on. What names of files and in files would command a terminal is shown instead (shown_text.h).
+/// As fmt::print, but never fails: if standard error is closed or full, the text is lost and the work goes
+/// on. Control characters in file names and file contents are made visible (shown_text.h).
 template <class... Arguments>
 void say(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
   sayAsItIs(shownText(fmt::format(text, std::forward<Arguments>(arguments)...)));

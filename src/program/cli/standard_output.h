@@ -1,4 +1,4 @@
-// What the program prints on standard output.
+// Output on standard output.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,13 +10,14 @@
 
 namespace ringlet::program {
 
-/// As fmt::print. What names of files and in files would command a terminal is shown instead (shown_text.h).
+/// As fmt::print. Control characters in file names and file contents are made visible (shown_text.h).
 template <class... Arguments>
 void print(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
   fmt::print("{}", shownText(fmt::format(text, std::forward<Arguments>(arguments)...)));
 }
 
-/// An object as the last thing on standard output. Not UTF-8, say in a path, is replaced rather than fatal.
+/// Prints an object as the last output. Text that is not UTF-8, for example in a path, is replaced; it is no
+/// error.
 void printJson(const nlohmann::ordered_json& json);
 
 }  // namespace ringlet::program

@@ -1,4 +1,4 @@
-// What the file of a groom does not hold although the groom had it: whoever reads it must say it.
+// Properties of a groom that a file cannot hold and that its reader must therefore be told.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace ringlet::program {
 
-/// A sentence each for the unit and the up axis of strands, where whoever reads `path` without options would
-/// take others: its format states neither. `path` may be a folder of such files.
+/// A sentence each for the unit and the up axis if reading `path` without options would assume others, since
+/// its format states neither. `path` may be a folder of such files.
 std::vector<std::string> lostIn(const std::filesystem::path& path, double metresPerUnit, bool upIsZ);
 
 }  // namespace ringlet::program

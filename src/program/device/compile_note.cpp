@@ -21,7 +21,7 @@ void CompileNote::begin(std::size_t kernelCount) {
   try {
     watcher_ = std::thread(watch);
   } catch (const std::system_error&) {
-    // No thread to be had: nothing is said.
+    // No thread is available: nothing is printed.
   }
 }
 

@@ -1,5 +1,5 @@
-// A line on standard error while the driver compiles kernels for longer than a moment, so that nobody takes
-// the first use of a device for a hang.
+// Prints a line on standard error if the driver compiles kernels for longer than a moment, so that the first
+// use of a device is not taken for a hang.
 #pragma once
 
 #include <chrono>
@@ -17,9 +17,9 @@ class CompileNote : public CompileObserver {
   explicit CompileNote(std::string device) : device_(std::move(device)) {}
   ~CompileNote() override { end(); }
 
-  /// After a second says what is going on.
+  /// Prints a line after a second.
   void begin(std::size_t kernelCount) override;
-  /// Says how long it took, where begin has said something.
+  /// Prints the time it took, if begin has printed a line.
   void end() override;
 
  private:

@@ -11,11 +11,11 @@ namespace {
 
 struct Break {
   const char* kernel;
-  std::uint32_t from, to;  // 32 bits of a constant
+  std::uint32_t from, to;  // the 32 bits of a constant
 };
 const Break kBreaks[] = {
     {"strand_step", std::bit_cast<std::uint32_t>(0.5f), std::bit_cast<std::uint32_t>(0.51f)},
-    {"contact_query", 9, 8},  // rows of cells about a particle
+    {"contact_query", 9, 8},  // number of rows of cells around a particle
     {"probe_turns", 1013904223, 1013904221},
 };
 

@@ -1,4 +1,4 @@
-// For tests of `ringlet conform`: kernels with a known error, to show that it notices.
+// For tests of `ringlet conform`: puts a known error into a kernel, to show that it is found.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace ringlet::program {
 
-/// What --break takes.
+/// The values of --break.
 std::vector<std::string> breakableKernels();
 
-/// For gpu::DeviceOptions::changeCode: in kernels of this name one constant of the code becomes another.
+/// For gpu::DeviceOptions::changeCode: replaces a constant in the code of kernels with this name.
 std::function<void(const std::string&, std::vector<std::uint32_t>&)> breaking(const std::string& kernel);
 
 }  // namespace ringlet::program

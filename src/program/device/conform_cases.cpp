@@ -22,7 +22,7 @@ namespace ringlet::program {
 namespace {
 
 using Outcome = Check::Outcome;
-// Sums the time between begin and end.
+// Adds up the time between begin and end.
 class CompileClock : public CompileObserver {
  public:
   void begin(std::size_t) override { watch_.emplace(milliseconds_); }
@@ -34,7 +34,7 @@ class CompileClock : public CompileObserver {
   std::optional<Stopwatch> watch_;
 };
 
-// NaN is wrong.
+// NaN counts as wrong.
 Check compared(const std::string& name, double figure, double tolerance, const std::string& detail,
                const std::string& where, double compileSeconds) {
   const bool isRight = figure <= tolerance;
@@ -85,7 +85,7 @@ Result<std::uint64_t> hashOfRun(const ComputeDevice& device, const Groom& groom,
   return hash;
 }
 
-// The same run on two devices, or twice on one.
+// Runs the same hair on two devices, or twice on one, and compares bits.
 void checkSameBits(const ComputeDevice& one, const ComputeDevice& other, const Groom& groom,
                    const Material& material, const Settings& settings, KernelChoice kernel,
                    const std::string& name, const Tell& tell) {
@@ -107,13 +107,13 @@ StrandShape serialShape(const DeviceLimits& limits) {
   return {.lanes = 1, .particlesPerLane = std::min(128u, limits.longestRunInMemory), .inMemory = true};
 }
 
-// Strands of these lengths, or of `longest` particles.
+// Strands of these lengths, but at most `longest` particles.
 Groom randomGroom(std::vector<int> lengths, std::uint32_t longest, unsigned seed) {
   for (int& length : lengths) length = std::min(length, static_cast<int>(longest));
   return parity::randomGroom(lengths, seed);
 }
 
-// Full strands, strands that end about the end of a lane, and short ones.
+// Full strands, strands that end near the end of a lane, and short ones.
 Groom groomOf(const StrandShape& shape) {
   if (shape.serial()) return randomGroom({2, 3, 31, 64, 100, 16, 17, 65, 128}, shape.capacity(), 7);
   const int run = static_cast<int>(shape.particlesPerLane), all = static_cast<int>(shape.capacity());
@@ -138,7 +138,7 @@ Settings usualSettings() {
   return settings;
 }
 
-// `material` decides whether the shape is asked for by hair alone or by other work.
+// `material` decides whether the kernel for hair alone or another one is used.
 void checkShape(const ConformCases& cases, const StrandShape& shape, const Material& material,
                 const std::string& name, bool withStorage, const Tell& tell,
                 double oneStep = parity::kOneStep) {
@@ -160,7 +160,7 @@ void checkShapes(const ConformCases& cases, const Tell& tell) {
     if (cases.quick && work != StrandWork::hairAlone) continue;
     const Material material = work == StrandWork::hairAlone ? Material{} : parity::varyingMaterial();
     for (const StrandShape& shape : plannedShapes(limits, work, lengths)) {
-      if (shape.serial()) continue;  // below, whether it is planned or not
+      if (shape.serial()) continue;  // checked below, whether it is planned or not
       const bool holdsSixtyFour = shape == plannedShapes(limits, work, one).front();
       checkShape(cases, shape, material,
                  fmt::format("{}, {}", work == StrandWork::hairAlone ? "hair alone" : "stiffness that varies",
@@ -177,7 +177,7 @@ void checkShapes(const ConformCases& cases, const Tell& tell) {
              parity::oneStepOf(widest.capacity()));
 }
 
-// `count` points at random in a cube of `side` [m].
+// `count` random points in a cube of `side` [m].
 void checkLists(const ComputeDevice& device, int count, double side, const Tell& tell) {
   const std::string name = fmt::format("contact lists of {} points in {} mm", count, 1000 * side);
   std::mt19937 engine(7);
@@ -196,7 +196,7 @@ void checkLists(const ComputeDevice& device, int count, double side, const Tell&
                 0));
 }
 
-// Frames of a shaken swatch whose strands meet.
+// Frames of a shaken swatch whose strands touch.
 void checkMeeting(const ConformCases& cases, const Settings& settings, const std::string& what,
                   const Tell& tell) {
   constexpr int kFrames = 3;
@@ -218,7 +218,7 @@ void checkMeeting(const ConformCases& cases, const Settings& settings, const std
 
 void checkContacts(const ConformCases& cases, const Tell& tell) {
   checkLists(cases.device, 1000, 0.12, tell);  // some 1,400 pairs
-  checkLists(cases.device, 300, 0.01, tell);   // each near all others
+  checkLists(cases.device, 300, 0.01, tell);   // each close to all others
   const Settings pairs = parity::meetingSettings();
   Settings volume = pairs;
   volume.contacts.method = ContactMethod::volume;
@@ -234,7 +234,7 @@ void checkContacts(const ConformCases& cases, const Tell& tell) {
   for (const ContactTaper taper : {ContactTaper::distance, ContactTaper::time}) {
     Settings atOnce = pairs;
     atOnce.contacts.taper = taper;
-    atOnce.contacts.rampSeconds = 0;  // in full in the first step
+    atOnce.contacts.rampSeconds = 0;  // in full from the first step
     checkStep(cases.device, {parity::randomGroom({64, 31, 64, 17, 2, 64, 33, 64, 3}, 3), {}, atOnce, {}, 5},
               taper == ContactTaper::time ? "contacts, time taper" : "contacts", parity::kOneStep, tell);
   }

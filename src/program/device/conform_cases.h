@@ -1,5 +1,5 @@
-// The hair of `ringlet conform`: planned shapes, fallbacks, contacts, bodies and air, each held against the
-// reference by parity/ with the tests' tolerances.
+// The hair of `ringlet conform`: planned shapes, fallbacks, contacts, bodies and air, each compared with the
+// reference by parity/, with the tolerances of the tests.
 #pragma once
 
 #include "program/device/conform_check.h"
@@ -9,11 +9,11 @@ namespace ringlet::program {
 
 struct ConformCases {
   const ComputeDevice& device;
-  const ComputeDevice& withoutTexels;  // the same device, opened so that kernels see storage buffers only
+  const ComputeDevice& withoutTexels;  // the same device, opened such that kernels read storage buffers only
   bool quick = false;
 };
 
-/// Hands each line to `tell` when it is there.
+/// Calls `tell` with each check as soon as it is done.
 void runCases(const ConformCases& cases, const Tell& tell);
 
 }  // namespace ringlet::program

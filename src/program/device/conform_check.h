@@ -1,4 +1,4 @@
-// One line of `ringlet conform`.
+// One check, a line of `ringlet conform`.
 #pragma once
 
 #include <functional>
@@ -13,20 +13,20 @@ struct Check {
   enum class Outcome {
     right,
     wrong,    // the device does not conform
-    quirk,    // the driver is wrong where Ringlet does not rely on it
+    quirk,    // the driver is wrong, but Ringlet does not rely on this
     skipped,  // the device lacks the checked feature, and Ringlet does not use it there
   };
   std::string name;
   Outcome outcome = Outcome::right;
   std::optional<double> figure{}, tolerance{};
-  std::string detail{};       // of what is not right: where, expected, found; or a word on what was measured
-  double compileSeconds = 0;  // the driver's part in it
+  std::string detail{};       // if not right: where, expected, found; else a note on what was measured
+  double compileSeconds = 0;  // time that the driver took
 };
 
-/// What takes a check when it is done.
+/// Receives a check when it is done.
 using Tell = std::function<void(const Check&)>;
 
-/// The check that an error ended.
+/// A check that ended with an error.
 inline Check failed(const std::string& name, const Error& error) {
   return {.name = name, .outcome = Check::Outcome::wrong, .detail = error.message};
 }

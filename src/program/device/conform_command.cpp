@@ -104,7 +104,7 @@ nlohmann::ordered_json asJson(const nlohmann::ordered_json& facts, const TypedCo
   return json;
 }
 
-// A line as soon as it is there: some take a driver's compiler many seconds.
+// Prints each line at once, since some checks take a driver's compiler many seconds.
 int run(const TypedConform& typed) {
   const auto device = openToConform(typed, 0);
   if (!device) return fail("conform", device.error());
@@ -154,7 +154,7 @@ void addConformCommand(CLI::App& app, int& exitCode) {
   command->add_flag("--quick", typed->quick, "Leaves out what takes long; see below");
   command->add_option("--json", typed->json, "Writes the report to this file as one JSON object, too")
       ->type_name("FILE");
-  // For tests: a kernel gets a known error, to show that conform notices.
+  // For tests: puts a known error into a kernel, to show that conform finds it.
   command->add_option("--break", typed->breaks)->check(oneOf(breakableKernels()))->group("");
   command->callback([typed, &exitCode] { exitCode = run(*typed); });
 }

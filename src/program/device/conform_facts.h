@@ -1,4 +1,4 @@
-// What `ringlet conform` says of the program, the machine and the device before it checks anything.
+// Facts about the program, the machine and the device that `ringlet conform` prints before its checks.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,10 +7,10 @@
 
 namespace ringlet::program {
 
-/// One object: ringlet, commit, kernels, os, device and so on, in the order they are printed in.
+/// One object: ringlet, commit, kernels, os, device and so on, in the order in which they are printed.
 nlohmann::ordered_json factsOf(const ComputeDevice& device);
 
-/// A line a fact.
+/// One line per fact.
 std::string factsText(const nlohmann::ordered_json& facts);
 
 }  // namespace ringlet::program

@@ -38,11 +38,11 @@ struct Launch {
   const char* name;
   std::span<const std::uint32_t> spirv;
   std::optional<std::uint32_t> push{};
-  std::optional<std::uint32_t> groupsFrom{};  // the buffer with the group counts; none: kGroups
+  std::optional<std::uint32_t> groupsFrom{};  // buffer with the group counts; none: kGroups
   bool wantsFullSubgroups = false;
 };
 
-// The buffers, by binding number, after some dispatches.
+// The contents of the buffers, by binding number, after some dispatches.
 struct Ran {
   std::vector<Words> buffers;
   double compileSeconds = 0;
@@ -99,7 +99,7 @@ Result<Ran> run(gpu::Device& device, std::span<const Launch> launches, std::vect
   return ran;
 }
 
-// Well mixed numbers (the finaliser of MurmurHash3).
+// A hash (the finaliser of MurmurHash3).
 std::uint32_t mixed(std::uint32_t x) {
   x = (x ^ x >> 16) * 0x85ebca6bu;
   x = (x ^ x >> 13) * 0xc2b2ae35u;
@@ -111,7 +111,7 @@ Words mixedWords(std::size_t count) {
   return words;
 }
 
-// Counts what differs, and tells of the first.
+// Counts differences and describes the first.
 class Difference {
  public:
   void add(std::size_t place, std::uint32_t expected, std::uint32_t found) {
@@ -119,7 +119,7 @@ class Difference {
     if (expected == found) return;
     if (wrong_++ == 0) first_ = fmt::format("first at {}: expected {}, found {}", place, expected, found);
   }
-  // What is wrong has this outcome.
+  // `ifWrong`: the outcome if there are differences.
   Check check(const std::string& name, double compileSeconds, Outcome ifWrong = Outcome::wrong) const {
     return {.name = name,
             .outcome = wrong_ == 0 ? Outcome::right : ifWrong,
@@ -135,7 +135,7 @@ class Difference {
   std::string first_;
 };
 
-// Which lane an invocation is, is the device's to choose; the values then follow.
+// The device chooses the lane of each invocation; the expected values follow from its choice.
 void probeShuffles(const ComputeDevice& device, const Tell& tell) {
   const std::string name = "shuffles at every lane";
   const gpu::DeviceProperties& p = device.gpu().properties();
@@ -151,7 +151,7 @@ void probeShuffles(const ComputeDevice& device, const Tell& tell) {
   if (!ran) return tell(failed(name, ran.error()));
   const Words& found = ran->buffers[1];
 
-  // By workgroup, subgroup and lane: the invocation.
+  // The invocation at each workgroup, subgroup and lane.
   std::map<std::array<std::uint32_t, 3>, std::uint32_t> places;
   for (std::uint32_t i = 0; i < n; ++i) places[{i / kGroupSize, found[2 * n + i], found[n + i]}] = i;
   Difference byIndex, byXor, sizes;
@@ -171,7 +171,7 @@ void probeShuffles(const ComputeDevice& device, const Tell& tell) {
   tell(byXor.check(name + ", by xor", 0));
 }
 
-// The last value of the rows 2 and 3 of probe_loops.comp.
+// The last value of rows 2 and 3 of probe_loops.comp.
 std::uint32_t lastOfLoop(std::uint32_t invocation, std::uint32_t turns,
                          std::span<const std::uint32_t> values) {
   std::uint32_t last = 0, turn = 0;
@@ -203,7 +203,7 @@ void probeLoops(const ComputeDevice& device, const Tell& tell) {
   tell(rows[2].check("loop exits: a value made anew in every turn (no kernel does)", 0, Outcome::quirk));
 }
 
-// Long loops are cut by the plan where it knows that the device ends them.
+// The plan cuts long loops on devices that are known to end them.
 void probeTurns(const ComputeDevice& device, const Tell& tell) {
   for (const std::uint32_t turns : {65'000u, 200'000u}) {
     const std::string name = fmt::format("a loop of {} turns", turns);
@@ -253,7 +253,7 @@ void probeScan(const ComputeDevice& device, const Tell& tell) {
   tell(difference.check("running sums through shared memory and barriers", ran->compileSeconds));
 }
 
-// As many workgroups as another kernel decided; atomics count them.
+// The number of workgroups comes from another kernel; atomics count them.
 void probeAtomics(const ComputeDevice& device, const Tell& tell) {
   for (const bool isIndirect : {false, true}) {
     const std::string name = isIndirect ? "an indirect dispatch" : "sums, maxima and places by atomics";

@@ -1,5 +1,5 @@
-// Tiny kernels (shaders/kernels/probe_*.comp) that hold a driver against what Ringlet's kernels rely on:
-// plain integer formulas, compared bit by bit.
+// Tiny kernels (shaders/kernels/probe_*.comp) that test a driver for what Ringlet's kernels rely on: plain
+// integer formulas, compared bit by bit.
 #pragma once
 
 #include "program/device/conform_check.h"
@@ -7,7 +7,7 @@
 
 namespace ringlet::program {
 
-/// Runs every probe and hands each line to `tell` when it is there.
+/// Runs every probe and calls `tell` with each check as soon as it is done.
 void runProbes(const ComputeDevice& device, const Tell& tell);
 
 }  // namespace ringlet::program

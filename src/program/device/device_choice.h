@@ -1,4 +1,4 @@
-// On which devices hair is stepped, and by which kernels.
+// The devices and kernels with which hair is stepped.
 #pragma once
 
 #include <optional>
@@ -12,10 +12,10 @@ namespace ringlet::program {
 
 struct DeviceChoice {
   std::string device{};
-  std::vector<std::string> devices{};     // in its place: on which the strands are divided
-  std::optional<ComputeDevice> opened{};  // in its place: runs on one device share its compiled kernels
+  std::vector<std::string> devices{};     // in place of `device`: the strands are divided among these
+  std::optional<ComputeDevice> opened{};  // in place of `device`: several runs share its compiled kernels
   KernelChoice kernel{};
-  bool usesTuned = true;  // strand shapes by what `ringlet tune` measured
+  bool usesTuned = true;  // choose strand shapes by the measurements of `ringlet tune`
 };
 
 }  // namespace ringlet::program

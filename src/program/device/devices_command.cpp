@@ -35,7 +35,7 @@ nlohmann::ordered_json asJson(const std::vector<DeviceSummary>& devices) {
   return json;
 }
 
-// "subgroup 32", or with what else it can be: "subgroup 32 (or 64)".
+// "subgroup 32", or with other possible widths: "subgroup 32 (or 64)".
 std::string subgroupText(const DeviceSummary& device) {
   const auto& sizes = device.subgroupSizes;
   std::string others;

@@ -12,7 +12,7 @@
 namespace ringlet::program {
 namespace {
 
-// Where what was measured is true, and there is a choice.
+// Whether the measurements apply to this hair, and the shape is not prescribed.
 bool mayBeTuned(const SceneHairInput& input, const KernelChoice& kernel) {
   const Settings settings = input.settings();
   const ContactKinds kinds{.pairs = settings.contacts.on};
@@ -46,7 +46,7 @@ Result<std::unique_ptr<GpuChoice>> GpuChoice::make(const SceneHairInput& input, 
   const auto groupSize = groupSizeAsked();
   if (!groupSize) return groupSize.error();
   kernel.groupSize = *groupSize;
-  // Costs are true only of the width they were measured at.
+  // Costs apply only to the width at which they were measured.
   if (kernel.subgroupSize == 0) kernel.subgroupSize = static_cast<int>(tuned.subgroupSize);
   if (kernel.subgroupSize != static_cast<int>(tuned.subgroupSize)) tuned.costs.clear();
   kernel.measured = tuned.costs;

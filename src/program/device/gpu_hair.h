@@ -1,4 +1,4 @@
-// The hair of a run on devices, as the program opens them.
+// The hair of a run on devices, opened as the program does.
 #pragma once
 
 #include <memory>
@@ -18,8 +18,8 @@ namespace ringlet::program {
 /// As ComputeDevice::open, with the program's cache of kernels.
 Result<ComputeDevice> openGpu(const std::string& device);
 
-/// What a run's hair is made of on one device, with what `ringlet tune` remembered, for hair alone. `isTold`:
-/// whether it is said on standard error where kernels take long to compile, or want tuning again.
+/// What a run's hair is made from on one device, with the measurements of `ringlet tune` for hair alone.
+/// `isTold`: print notes on standard error if kernels take long to compile or should be tuned again.
 class GpuChoice {
  public:
   static Result<std::unique_ptr<GpuChoice>> make(const SceneHairInput& input, const DeviceChoice& choice,

@@ -20,14 +20,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What the child wrote, and how it ended.
+// The output and the wait status of the child.
 struct Ended {
   std::string output;
   int status = 0;
 };
 
-// Mesa's cache of compiled kernels is off, so that times are those of a first use. What drivers say while
-// they die is left out: the parent says which signal it was.
+// Switches Mesa's cache of compiled kernels off, so that times are those of a first use. What a crashing
+// driver prints is dropped; the parent reports the signal.
 Result<Ended> runChild(const std::vector<std::string>& arguments) {
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) return Error{fmt::format("cannot make a pipe: {}", std::strerror(errno))};

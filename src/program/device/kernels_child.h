@@ -1,4 +1,4 @@
-// One kernel compiled in a process of its own: drivers crash in their own statistics.
+// Compiles a kernel in a process of its own, since drivers may crash while they compute statistics.
 #pragma once
 
 #include <optional>
@@ -12,23 +12,24 @@
 
 namespace ringlet::program {
 
-/// What became of a kernel.
+/// The result for one kernel.
 struct CompiledKernel {
   bool isCompiled = false;
-  std::string trouble{};                  // why not; or that the driver crashed in its statistics
-  std::optional<std::uint32_t> subgroup;  // none: the driver's choice, which it does not tell
-  double seconds = 0;                     // to compile
+  std::string trouble{};                  // why it was not compiled, or that the driver crashed in its
+                                          // statistics
+  std::optional<std::uint32_t> subgroup;  // none: the driver's choice, which it does not report
+  double seconds = 0;                     // compile time
   std::vector<gpu::KernelStatistic> statistics{};
 };
 
-/// In this process, on a device opened for it.
+/// Compiles in this process, on a device opened for it.
 CompiledKernel compileKernel(const ComputeDevice& device, const ListedKernel& kernel);
 
-/// The child's end: prints what compileKernel returns as one line.
+/// In the child: prints the result of compileKernel as one line.
 void printCompiled(const CompiledKernel& compiled);
 
-/// The parent's end: runs this program again with these arguments and reads that line. A child that dies is a
-/// kernel that is not compiled, and says by which signal.
+/// In the parent: runs this program again with these arguments and reads that line. If the child dies, the
+/// kernel counts as not compiled, and the result names the signal.
 CompiledKernel compileInChild(const std::vector<std::string>& arguments);
 
 }  // namespace ringlet::program

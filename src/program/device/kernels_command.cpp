@@ -1,4 +1,4 @@
-// Implements kernels_command.h: options, the table and its JSON. A kernel is compiled by kernels_child.cpp.
+// Implements kernels_command.h: options, the table and its JSON. kernels_child.cpp compiles the kernels.
 #include "program/device/kernels_command.h"
 #include "program/cli/standard_error.h"
 
@@ -64,7 +64,7 @@ struct TypedKernels {
   std::vector<std::string> shapes;  // LANESxRUN
   std::filesystem::path json;
   bool statistics = false;
-  int one = -1;  // in a child: which kernel; statistics then say how
+  int one = -1;  // in a child: index of the kernel; `statistics` then asks for statistics
 };
 
 Result<ComputeDevice> openToCompile(const TypedKernels& typed) {
@@ -102,7 +102,7 @@ Json asJson(const ListedKernel& kernel, const CompiledKernel& compiled) {
   return json;
 }
 
-// Of the device's shapes with runs in registers, those that are written as typed.
+// The device's shapes with runs in registers that were typed.
 Result<std::vector<StrandShape>> shapesOf(const TypedKernels& typed, const DeviceLimits& limits) {
   std::vector<StrandShape> shapes;
   const std::vector<ShapeCost> offered = shapeCosts(limits);
@@ -120,7 +120,7 @@ Result<std::vector<StrandShape>> shapesOf(const TypedKernels& typed, const Devic
   return shapes;
 }
 
-// With statistics first; where the driver dies of them, without.
+// Compiles with statistics; if the driver crashes, without.
 CompiledKernel compileSafely(const TypedKernels& typed, int device, std::size_t index) {
   std::vector<std::string> arguments{"kernels", "--device", std::to_string(device), "--one",
                                      std::to_string(index)};
@@ -194,7 +194,7 @@ void addKernelsCommand(CLI::App& app, int& exitCode) {
                    "Strand kernels in these shapes, LANESxRUN,..., and not in those that are planned")
       ->type_name("SHAPES")
       ->delimiter(',');
-  // In a child process: compiles the kernel of this number and prints one line.
+  // In a child process: compiles the kernel with this index and prints one line.
   command->add_option("--one", typed->one)->group("");
   command->callback([typed, &exitCode] { exitCode = run(*typed); });
 }

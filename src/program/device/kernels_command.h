@@ -1,4 +1,4 @@
-// `ringlet kernels`: what the driver's compiler makes of every kernel.
+// `ringlet kernels`: compiles every kernel and shows the driver's statistics.
 #pragma once
 
 #include "program/cli/cli_fwd.h"

@@ -14,7 +14,7 @@
 namespace ringlet::program {
 namespace {
 
-// What strands are asked to do, in the variants of the strand kernels (strand_kernels.cpp).
+// Kinds of work of the strand kernels, with their variants (strand_kernels.cpp).
 struct Work {
   const char* name;
   StrandWork shapes;

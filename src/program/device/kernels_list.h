@@ -1,4 +1,4 @@
-// Every kernel and shape that could be planned on a device.
+// Lists every kernel and shape that may be planned on a device.
 #pragma once
 
 #include <span>
@@ -16,8 +16,8 @@ struct ListedKernel {
   gpu::KernelDescription description;
 };
 
-/// Always in the same order on the same device. `shapes`: strand kernels in these with runs in registers, and
-/// not in those that are planned and in the serial form.
+/// The order is always the same on the same device. `shapes`: strand kernels have these shapes, with runs in
+/// registers, instead of the planned ones and the serial form.
 std::vector<ListedKernel> listKernels(const ComputeDevice& device, std::span<const StrandShape> shapes = {});
 
 }  // namespace ringlet::program

@@ -1,4 +1,4 @@
-// Implements kernels_statistics.h, by the names that these give:
+// Implements kernels_statistics.h, using the names that drivers give:
 //   RADV    VGPRs, SGPRs, Spilled VGPRs, Spilled SGPRs, Scratch size, Code size, Subgroups per SIMD
 //   ANV     Instruction Count, Spill count, Fill count, Scratch Memory Size, Max dispatch width
 //   NVK     Instruction count, Code size, Number of GPRs, SLM size (local memory), Max warps/SM,
@@ -15,17 +15,17 @@
 namespace ringlet::program {
 namespace {
 
-constexpr double kSchedulers = 4;  // of an NVIDIA processor (SM), each with warps of its own
+constexpr double kSchedulers = 4;  // schedulers of an NVIDIA processor (SM), each with its own warps
 
 bool hasPart(std::string_view whole, std::string_view part) { return whole.find(part) != whole.npos; }
 
-// NVIDIA's driver puts another number above the 32 bits of local memory.
+// NVIDIA's driver puts another number above the lower 32 bits of local memory.
 double valueOf(const gpu::KernelStatistic& one) {
   return hasPart(one.name, "Local Memory") ? std::fmod(one.value, 4294967296.0) : one.value;
 }
 
-// Spilled scalar registers go to vector registers, and NVK's "to reg" to others of another kind: both cost
-// little. NVIDIA counts no spills; they are in a kernel's local memory.
+// Spilled scalar registers go to vector registers, and NVK's "to reg" to registers of another kind; both cost
+// little. NVIDIA does not count spills; they are part of a kernel's local memory.
 bool isSpilled(const gpu::KernelStatistic& one) {
   if (valueOf(one) <= 0) return false;
   if (hasPart(one.name, "Local Memory")) return true;

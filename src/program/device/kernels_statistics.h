@@ -1,4 +1,4 @@
-// What drivers call their statistics of a kernel's machine code, and what of it a person should see.
+// The statistics that drivers give for a kernel's machine code, and which of them are worth showing.
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@ namespace ringlet::program {
 /// `spills`, `1 wave`: see `ringlet kernels --help`.
 std::vector<std::string> flagsOf(std::span<const gpu::KernelStatistic> statistics);
 
-/// Of the statistics what is worth a line of text.
+/// The statistics that are worth showing, as a line of text.
 std::string statisticsText(std::span<const gpu::KernelStatistic> statistics);
 
 }  // namespace ringlet::program

@@ -21,7 +21,7 @@ std::string asked() {
 }
 
 bool leaveOut(std::string_view word, gpu::DeviceOptions& options) {
-  if (word == "texels") return options.mostTexelRecords = 1, true;  // fewer than any kernel wants
+  if (word == "texels") return options.mostTexelRecords = 1, true;  // fewer than any kernel needs
   if (word == "timestamps") return options.withoutTimestamps = true;
   if (word == "mapping") return options.alwaysStage = true;
   if (word == "full_subgroups") return options.withoutFullSubgroups = true;

@@ -1,5 +1,5 @@
-// The device of a command; and what $RINGLET_WITHOUT lets it do without, and $RINGLET_GROUP_SIZE otherwise,
-// to compare.
+// Opens a command's device. For comparisons, $RINGLET_WITHOUT switches features off, and $RINGLET_GROUP_SIZE
+// sets the workgroup size.
 #pragma once
 
 #include <string>
@@ -9,17 +9,18 @@
 
 namespace ringlet::program {
 
-/// Of words with commas between: texels (kernels read storage buffers), timestamps (the host's clock times),
-/// mapping (buffers are filled through others), full_subgroups, atomic_int64. Errors: another word.
+/// Reads words separated by commas: texels (kernels read storage buffers), timestamps (times are measured by
+/// the host's clock), mapping (buffers are filled through staging buffers), full_subgroups, atomic_int64.
+/// Errors: another word.
 Result<gpu::DeviceOptions> optionsWithout(const std::string& words);
 
 /// As ComputeDevice::open, with the program's cache of kernels and $RINGLET_WITHOUT.
 Result<ComputeDevice> openDevice(const std::string& choice);
 
-/// $RINGLET_GROUP_SIZE, for KernelChoice::groupSize; 0 where it is not set. Errors: no whole number above 0.
+/// $RINGLET_GROUP_SIZE, for KernelChoice::groupSize; 0 if unset. Errors: not an integer above 0.
 Result<int> groupSizeAsked();
 
-/// A sentence for the warnings of a run; empty where nothing is left out.
+/// A sentence for the warnings of a run; empty if nothing is switched off.
 std::string whatIsLeftOut();
 
 }  // namespace ringlet::program

@@ -11,7 +11,7 @@ std::vector<StrandShape> plannedShapes(const DeviceLimits& limits, StrandWork wo
   std::vector<StrandShape> shapes;
   const auto add = [&](std::size_t strandCount, std::uint32_t length) {
     const auto ranges = planRanges(std::vector<std::uint32_t>(strandCount, length), limits, {}, work);
-    if (!ranges) return;  // no shape holds it
+    if (!ranges) return;  // no shape can hold it
     for (const StrandRange& range : *ranges) {
       if (std::ranges::find(shapes, range.shape) == shapes.end()) shapes.push_back(range.shape);
     }

@@ -9,12 +9,12 @@
 
 namespace ringlet::program {
 
-/// Particles a strand of usual hair.
+/// Numbers of particles in a strand of usual hair.
 inline constexpr std::uint32_t kUsualLengths[] = {16, 32, 64, 128, 256};
 
-/// Without repetition, by rising capacity, what is planned for grooms of each of these lengths: of
-/// 1.5 million particles, and, where `alsoFew`, of a hundred strands too, which get kernels that
-/// are sooner made.
+/// The shapes planned for grooms of each of these lengths, without repetition, by rising capacity: for grooms
+/// of 1.5 million particles and, if `alsoFew`, also of a hundred strands, which get kernels that compile
+/// sooner.
 std::vector<StrandShape> plannedShapes(const DeviceLimits& limits, StrandWork work,
                                        std::span<const std::uint32_t> lengths = kUsualLengths,
                                        bool alsoFew = false);

@@ -1,5 +1,4 @@
-// Implements tune_command.h: options to lengths, and the table. The timing is tune_run.cpp, the file
-// tuned_shapes.cpp.
+// Implements tune_command.h: options, and the table. tune_run.cpp measures, tuned_shapes.cpp writes the file.
 #include "program/device/tune_command.h"
 #include "program/cli/standard_error.h"
 
@@ -115,7 +114,7 @@ nlohmann::ordered_json asJson(const ComputeDevice& device, const TuneOutcome& ou
   return json;
 }
 
-// The fastest of each work and length has a star.
+// A star marks the fastest shape of each kind of work and length.
 std::string asText(const ComputeDevice& device, const TuneOutcome& outcome,
                    const std::filesystem::path& file) {
   std::string text = fmt::format(
@@ -154,7 +153,7 @@ Result<std::vector<std::uint32_t>> lengthsOf(const TypedTune& typed) {
   return typicalLengths(std::move(counts));
 }
 
-// In the order of kTuneWorks, each once.
+// The kinds of work that were typed, each once, in the order of kTuneWorks.
 std::vector<TuneWork> worksOf(const TypedTune& typed) {
   std::vector<TuneWork> works;
   for (const TuneWork work : kTuneWorks) {
@@ -177,7 +176,7 @@ int run(TypedTune& typed) {
   const auto outcome = timeShapes(*device, typed.options);
   if (!outcome) return fail("tune", outcome.error());
 
-  // The table is shown even where it cannot be remembered.
+  // The table is shown even if the result cannot be stored.
   Result<std::filesystem::path> file = std::filesystem::path{};
   if (!outcome->costs.empty()) file = rememberShapes(*device, outcome->costs, outcome->subgroupSize);
   const std::filesystem::path written = file ? *file : std::filesystem::path{};

@@ -1,4 +1,4 @@
-// `ringlet tune`: which strand shapes are fastest on a device, measured and remembered.
+// `ringlet tune`: measures which strand shapes are fastest on a device, and stores the result.
 #pragma once
 
 #include "program/cli/cli_fwd.h"

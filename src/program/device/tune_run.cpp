@@ -21,15 +21,17 @@
 namespace ringlet::program {
 namespace {
 
-// After a frame, of a strand's length: each of two is this near to the double reference in tests.
+// Largest difference after a frame, relative to a strand's length. In tests each shape is this close to the
+// double reference.
 double agreementAt(TuneWork work) {
   return work == TuneWork::bodies ? parity::kOneFrameAmongBodies : parity::kOneFrame;
 }
 constexpr int kFewestRounds = 3, kMostRounds = 101;
-constexpr double kShareForMaking = 0.7;  // of the time; the rest is for rounds
-// Of each length, so that no lane of the device is idle: two cores have some 16 lanes, large GPUs 300,000.
+constexpr double kShareForMaking = 0.7;  // of the time; the rest is for timing rounds
+// Particles for each length, enough to keep all lanes of the device busy: two cores have some 16 lanes, large
+// GPUs 300,000.
 constexpr std::uint32_t kParticlesOnCpu = 1 << 16, kParticlesOnGpu = 1 << 20;
-constexpr std::uint32_t kFewerAtWork = 4;  // times as few with contacts or bodies, whose frames take longer
+constexpr std::uint32_t kFewerAtWork = 4;  // divisor with contacts or bodies, whose frames take longer
 
 class Clock {
  public:
@@ -41,8 +43,8 @@ class Clock {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// A shape to be timed at one work with strands of one length; the first two of these are held against each
-// other.
+// A shape to be timed with one kind of work and strands of one length. The first two of these are compared
+// with each other.
 struct Entry {
   TuneWork work = TuneWork::alone;
   std::uint32_t particleCount = 0;
@@ -51,9 +53,9 @@ struct Entry {
   bool isOfPair = false;
 };
 
-// Of each number of lanes the shortest run that holds a strand, those first which the model likes; then one
-// lane in memory, if it holds one: with the longest strands, and where another would have none to be held
-// against.
+// For each number of lanes the shortest run that holds a strand, in the order of the cost model. Then a
+// single lane in memory, if it holds a strand: for the longest strands, or if there is no other shape to
+// compare with.
 std::vector<Entry> entriesOf(TuneWork work, std::uint32_t particleCount, bool isLongest,
                              const DeviceLimits& limits) {
   std::vector<ShapeCost> costs = shapeCosts(limits, strandWorkOf(work));
@@ -79,8 +81,8 @@ DeviceLimits atWidth(DeviceLimits limits, std::uint32_t subgroupSize) {
   return limits;
 }
 
-// The pairs of all kinds of work, lengths and widths first, in case time runs out; the device's default width
-// before others. One lane in memory asks for no width.
+// First the pairs that are compared, for all kinds of work, lengths and widths, in case time runs out; the
+// device's default width before others. A single lane in memory needs no width.
 std::vector<Entry> allEntries(const TuneOptions& options, const DeviceLimits& limits) {
   std::vector<Entry> all;
   for (const std::uint32_t width : subgroupSizes(limits)) {
@@ -96,12 +98,12 @@ std::vector<Entry> allEntries(const TuneOptions& options, const DeviceLimits& li
   return all;
 }
 
-// A simulation in one shape, and what it took.
+// A simulation with one shape, and its timings.
 struct Runner {
   TimedShape result;
   Simulation simulation;
   std::size_t strandCount = 0;
-  std::vector<Vec3f> positions;   // after the frame that verifies
+  std::vector<Vec3f> positions;   // after the frame that is compared
   std::vector<double> samples{};  // [ms] of a frame
 
   static Result<Runner> create(const ComputeDevice& device, const Entry& entry, std::uint32_t strandCount) {
@@ -125,7 +127,7 @@ struct Runner {
                   std::move(*positions)};
   }
 
-  // Not a number is not near.
+  // A position that is NaN counts as a difference.
   double differenceFrom(const Runner& other) const {
     double largest = 0;
     for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -142,7 +144,7 @@ struct Runner {
     return {};
   }
 
-  // Of the samples so far; a clock too coarse for a frame shows 0, which no cost can be.
+  // The result of the samples so far. A clock too coarse for a frame would give 0, which is no valid cost.
   TimedShape finished(const DeviceLimits& limits) const {
     TimedShape timed = result;
     const auto model = shapeCosts(atWidth(limits, timed.subgroupSize), strandWorkOf(timed.work));
@@ -159,7 +161,7 @@ struct Runner {
   }
 };
 
-// In messages, before what it is about.
+// The start of a message: the kind of work.
 std::string workBefore(TuneWork work) {
   return work == TuneWork::alone ? "" : fmt::format("{}: ", nameOf(work));
 }
@@ -171,7 +173,7 @@ ShapeTrouble troubleOf(const Entry& entry, const Error& cause) {
                 cause.fault}};
 }
 
-// Holds the last of them against the first of its work and length.
+// Compares the last runner with the first of its kind of work and length.
 Status verifyLast(std::vector<Runner>& runners) {
   Runner& last = runners.back();
   Runner& first = *std::ranges::find_if(runners, [&](const Runner& runner) {
@@ -192,7 +194,7 @@ Status verifyLast(std::vector<Runner>& runners) {
       last.result.shape.describe(), difference, allowed)};
 }
 
-// Of hair alone. A shape that holds strands of several lengths costs what it does on average.
+// Costs for hair alone. If a shape was timed with several lengths, the mean counts.
 std::vector<ShapeCost> costsOf(std::span<const TimedShape> timed, std::uint32_t subgroupSize) {
   std::vector<ShapeCost> costs;
   std::vector<int> counts;
@@ -238,7 +240,7 @@ Result<TuneOutcome> timeShapes(const ComputeDevice& device, const TuneOptions& o
   };
   catchInterruption();
   std::vector<Runner> runners;
-  // What is known so far, no more often than it takes little time.
+  // Reports the results so far, but not more often than once a second.
   double grown = -1;
   const auto grow = [&]() -> Status {
     if (!options.grow || clock.seconds() < grown + 1) return {};

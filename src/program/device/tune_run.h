@@ -1,4 +1,5 @@
-// Times strand shapes against each other on one device, each first held against another.
+// Times strand shapes against each other on one device; first the results of each are compared with
+// another's.
 #pragma once
 
 #include <cstdint>
@@ -20,11 +21,11 @@ struct TuneOutcome;
 struct TuneOptions {
   std::vector<TuneWork> works{TuneWork::alone};         // each once
   std::vector<std::uint32_t> lengths{16, 32, 64, 128};  // particles a strand, rising
-  std::optional<int> strandCount;                       // of each length; none: enough to fill the device
+  std::optional<int> strandCount;                       // for each length; none: enough to fill the device
   double seconds =
-      20;  // after which no shape is begun and no round; the first two shapes and three rounds are
+      20;  // afterwards no shape and no round is started; the first two shapes and three rounds always are
   bool showProgress = true;
-  /// What is known so far, after each shape that is made and each round; a second apart at least.
+  /// Called with the results so far after each shape and each round, at most once a second.
   std::function<Status(const TuneOutcome& soFar)> grow{};
 };
 
@@ -35,13 +36,14 @@ struct TimedShape {
   StrandShape shape;
   std::uint32_t subgroupSize = 0;
   double nanoseconds = 0;  // device time of a particle and step, the median over rounds
-  double model = 0;        // the same by the model
-  double difference = 0;   // from `against` after a frame: the farthest particle, as a share of the length
+  double model = 0;        // the same according to the cost model
+  double difference = 0;   // of the positions from those of `against` after a frame: the largest, relative to
+                           // the strand's length
   StrandShape against;
 };
 
-/// A shape that is not to be trusted on this device, or cannot be had. Of hair alone: nothing is remembered
-/// then.
+/// A shape that gives wrong results on this device, or cannot be made. If it concerns hair alone, nothing is
+/// stored.
 struct ShapeTrouble {
   TuneWork work = TuneWork::alone;
   std::uint32_t particleCount = 0;  // of a strand
@@ -55,18 +57,18 @@ struct TuneOutcome {
   std::vector<ShapeTrouble> troubles;
   std::vector<ShapeCost>
       costs;  // of hair alone, for KernelChoice::measured, at the fastest width; none with troubles of it
-  std::uint32_t subgroupSize = 0;  // that width
+  std::uint32_t subgroupSize = 0;  // the fastest width
   int rounds = 0;
-  std::size_t leftOut = 0;   // shapes there was no time for
-  bool interrupted = false;  // Ctrl-C came; what was timed until then is there, without costs
+  std::size_t leftOut = 0;   // number of shapes for which there was no time
+  bool interrupted = false;  // Ctrl-C came; results so far are kept, without costs
 };
 
-/// Of these lengths (of particles, one a strand) four at most that stand for all, the longest among them.
+/// At most four of these lengths (particles of each strand) that represent all, including the longest.
 std::vector<std::uint32_t> typicalLengths(std::vector<std::uint32_t> counts);
 
-/// Two shapes that are further apart after a frame than 1e-5 of the strands' length, among bodies 1e-4, and
-/// one that cannot be made, are troubles, and the others are timed. Fails where there is nothing to choose
-/// from, the device is lost, and no shape can be made. About `seconds` of time, most of it compiling.
+/// If two shapes differ after a frame by more than 1e-5 of the strands' length (1e-4 with bodies), or a shape
+/// cannot be made, that is a trouble, and the others are timed. Fails where there is no choice of shapes,
+/// where the device is lost, and where no shape can be made. Takes about `seconds`, most of it compiling.
 Result<TuneOutcome> timeShapes(const ComputeDevice& device, const TuneOptions& options);
 
 }  // namespace ringlet::program

@@ -13,11 +13,11 @@
 namespace ringlet::program {
 namespace {
 
-constexpr double kSpacing = 0.001;  // of the curls [m]
+constexpr double kSpacing = 0.001;  // distance between curls [m]
 
-// At the end of the first frame: aside and turned. With contacts a fiftieth as far: what hits at full speed
-// multiplies what two shapes differ by (a frame later 2e-4 of the length, 5e-6 at a tenth, 3e-6 at a
-// fiftieth).
+// The head's pose at the end of the first frame: displaced and turned. With contacts a fiftieth as far:
+// impacts at full speed amplify the difference between two shapes (a frame later 2e-4 of the length, 5e-6 at
+// a tenth, 3e-6 at a fiftieth).
 HeadPose movedAt(TuneWork work) {
   const double share = work == TuneWork::contacts ? 0.02 : 1;
   return {{0.02 * share, 0, 0.005 * share}, {0, std::sin(0.03 * share), 0, std::cos(0.03 * share)}};
@@ -41,7 +41,7 @@ Settings settingsOf(TuneWork work) {
   return settings;
 }
 
-// A sphere that the head carries, a millimetre beside the hair on the side to which it lags behind.
+// A sphere that the head carries, a millimetre beside the hair, on the side to which hair lags behind.
 Body besideHair(const Groom& groom) {
   Body body{.name = "tune", .radius = kTunedLength / 4};
   double side = 0;
@@ -52,7 +52,7 @@ Body besideHair(const Groom& groom) {
   return body;
 }
 
-// Whether a particle is at the sphere's surface, as those are that it holds off.
+// Whether some particle is at the sphere's surface, as those are that the sphere pushes away.
 Result<bool> touches(const Body& body, Simulation& simulation) {
   const auto positions = simulation.positions();
   if (!positions) return positions.error();

@@ -1,4 +1,4 @@
-// The kinds of work at which strand shapes are timed, and a simulation of each.
+// The kinds of work with which strand shapes are timed, and a simulation for each.
 #pragma once
 
 #include <cstdint>
@@ -11,25 +11,25 @@
 
 namespace ringlet::program {
 
-/// What the strand kernel does beside its strands: nothing; contacts of pairs; hair as a volume; bodies.
+/// What the strand kernel does besides hair alone: nothing; contacts of pairs; hair as a volume; bodies.
 enum class TuneWork { alone, contacts, volume, bodies };
 inline constexpr TuneWork kTuneWorks[] = {TuneWork::alone, TuneWork::contacts, TuneWork::volume,
                                           TuneWork::bodies};
 inline constexpr const char* kTuneWorkNames[] = {"alone", "contacts", "volume", "bodies"};
 constexpr const char* nameOf(TuneWork work) { return kTuneWorkNames[static_cast<int>(work)]; }
 
-/// As the planner has it.
+/// The planner's name for it.
 StrandWork strandWorkOf(TuneWork work);
 
 inline constexpr double kTunedLength = 0.25;  // of the strands [m]
 
-/// Curls a millimetre apart, as near to a square as their number allows, that have met what they work with:
-/// after a first frame, in which the head moved aside and turned. Errors: as for Simulation::create, and hair
-/// that met nothing.
+/// Curls a millimetre apart, in a grid as square as their number allows, after a first frame in which the
+/// head moved and turned, so that they are in contact with what the work needs. Errors: as for
+/// Simulation::create; hair that touched nothing.
 Result<Simulation> simulateWork(const ComputeDevice& device, TuneWork work, std::uint32_t particleCount,
                                 std::uint32_t strandCount, const KernelChoice& choice);
 
-/// Another frame; the head stands where it came to, so that all shapes see the same.
+/// Steps another frame with the head at rest, so that all shapes do the same work.
 Status stepWork(TuneWork work, Simulation& simulation);
 
 }  // namespace ringlet::program

@@ -13,14 +13,14 @@
 namespace ringlet::program {
 namespace {
 
-constexpr std::size_t kMostDevices = 32;  // of all drivers and kernels there were; older ones go
+constexpr std::size_t kMostDevices = 32;  // over all drivers and kernels so far; the oldest are dropped
 
 std::filesystem::path shapesFile() {
   const auto folder = cacheFolder();
   return folder.empty() ? folder : folder / "strand_shapes.toml";
 }
 
-// No file is an empty one.
+// A missing file counts as an empty one.
 Result<std::vector<DeviceCosts>> readShapesFile() {
   std::error_code code;
   const auto file = shapesFile();

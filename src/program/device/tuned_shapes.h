@@ -1,4 +1,4 @@
-// What `ringlet tune` measured, remembered in the program's cache folder.
+// The results of `ringlet tune`, stored in the program's cache folder.
 #pragma once
 
 #include <filesystem>
@@ -12,17 +12,17 @@
 namespace ringlet::program {
 
 struct TunedShapes {
-  std::vector<ShapeCost> costs;    // none: nothing is known of this device, driver and kernels
-  std::uint32_t subgroupSize = 0;  // they were measured at; 0: the device's default
+  std::vector<ShapeCost> costs;    // empty: nothing is known for this device, driver and kernels
+  std::uint32_t subgroupSize = 0;  // at which they were measured; 0: the device's default
   std::string warning;             // why the file could not be read
-  bool isOutdated = false;         // the device was tuned, but with another driver or other kernels
+  bool isOutdated = false;         // the device was tuned with another driver or other kernels
 };
 
-/// Of this device, as tuned last. Never fails: without the file shapes are chosen by a model.
+/// The latest results for this device. Never fails: without the file a cost model chooses shapes.
 TunedShapes recallShapes(const ComputeDevice& device);
 
-/// In place of what was known of this device, driver and kernels; what is known of others stays, unless the
-/// file is broken. Returns the file. Errors: no cache folder, or one that cannot be written.
+/// Replaces the results for this device, driver and kernels; others are kept, unless the file is broken.
+/// Returns the file's path. Errors: there is no cache folder, or it cannot be written.
 Result<std::filesystem::path> rememberShapes(const ComputeDevice& device, const std::vector<ShapeCost>& costs,
                                              std::uint32_t subgroupSize);
 

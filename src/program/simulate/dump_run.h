@@ -1,4 +1,4 @@
-// `ringlet simulate --dump`: the buffers of a device after a step, in place of a run.
+// `ringlet simulate --dump`: writes a device's buffers after a step, in place of a run.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace ringlet::program {
 
-/// dumpStep (ringlet/run/step_dump.h) into step_STEP of the run's folder. Says where, or why not; the exit
-/// status.
+/// Calls dumpStep (ringlet/run/step_dump.h) with step_STEP of the run's folder. Prints where the files are,
+/// or the error; returns the exit status.
 int runDump(const LoadedScene& scene, const SimulateOptions& options, std::uint64_t step);
 
 }  // namespace ringlet::program

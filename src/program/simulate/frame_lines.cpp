@@ -14,7 +14,7 @@ void FrameLines::tell(int frame) const {
       fmt::format("{{{}\"frame\": {}, \"frames\": {}, \"seconds\": {:.3f}, \"seconds_left\": {:.3f}}}\n",
                   run_ > 0 ? fmt::format("\"run\": {}, ", run_) : "", frame, count_, seconds,
                   seconds * (count_ - frame) / (frame - first_));
-  // Nobody may be listening any more; frames are written all the same.
+  // Errors are ignored: if nobody reads the lines, frames are written all the same.
   (void)std::fwrite(line.data(), 1, line.size(), stdout);
   (void)std::fflush(stdout);
 }

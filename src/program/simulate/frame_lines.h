@@ -1,4 +1,4 @@
-// FrameLines: one line of JSON on standard output for each frame that is written, for a scheduler
+// FrameLines: prints a line of JSON on standard output for each frame that is written, for a scheduler
 // (--json-progress).
 #pragma once
 
@@ -8,10 +8,11 @@ namespace ringlet::program {
 
 class FrameLines {
  public:
-  /// `first`: frames done before; of `count`. `run`: of a sweep, its number; 0: of none.
+  /// `first`: frames done before this run; `count`: frames in all; `run`: number within a sweep; 0: no sweep.
   FrameLines(int first, int count, int run) : first_(first), count_(count), run_(run) {}
 
-  /// {"frame": 12, "frames": 48, "seconds": 3.1, "seconds_left": 9.3}; "run": 3 first, of a sweep.
+  /// Prints {"frame": 12, "frames": 48, "seconds": 3.1, "seconds_left": 9.3}; in a sweep with "run": 3 in
+  /// front.
   void tell(int frame) const;
 
  private:

@@ -15,7 +15,7 @@
 namespace ringlet::program {
 namespace {
 
-// A rank's part, on one of the run's devices, in turn.
+// Makes a rank's part of the hair, with ranks taking the run's devices in turn.
 mpi::PartMaker partMaker(const SimulateOptions& options) {
   return [&options](const SceneHairInput& input, std::size_t rank, std::span<const std::uint32_t> strands,
                     PartLink* link) -> Result<std::unique_ptr<SceneHair>> {
@@ -40,7 +40,7 @@ bool isOneOfRanks() { return mpi::ranks().count > 1; }
 std::optional<int> joinRun(const LoadedScene& scene, SimulateOptions& options) {
   options.onRanks = isOneOfRanks();
   if (mpi::ranks().own == 0) return std::nullopt;
-  catchInterruption();  // rank 0 says when this one ends
+  catchInterruption();  // rank 0 decides when this one ends
   const SceneFrames frames(scene);
   mpi::serveRanks(hairInputOf(scene, frames, options), partMaker(options));
   return kExitFine;

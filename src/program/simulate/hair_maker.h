@@ -1,5 +1,5 @@
-// The hair of a run, as its options say: on a device, divided among several or among ranks, or by the
-// reference; and taking part in such a run as a rank.
+// Makes the hair of a run as its options say: on a device, divided among devices or ranks, or by the
+// reference; and takes part in such a run as a rank.
 #pragma once
 
 #include <memory>
@@ -16,8 +16,8 @@ Result<std::unique_ptr<SceneHair>> makeHair(const SceneHairInput& input, const S
 
 /// Whether mpirun started more than this process.
 bool isOneOfRanks();
-/// Under mpirun: takes part in the run that `simulate` begins on rank 0. An exit status: this is another
-/// rank, and the run is over.
+/// Under mpirun: takes part in the run that `simulate` begins on rank 0. Returns an exit status if this is
+/// another rank, once the run is over.
 std::optional<int> joinRun(const LoadedScene& scene, SimulateOptions& options);
 
 }  // namespace ringlet::program

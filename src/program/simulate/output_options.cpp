@@ -18,7 +18,7 @@ bool holds(const std::vector<std::string>& names, const char* name) {
   return std::ranges::find(names, name) != names.end();
 }
 
-// The animations of which a flag or --cache is not: "hair.usdc, hair.pc2".
+// Animations without a flag of their own: "hair.usdc, hair.pc2".
 std::string furtherFiles() {
   std::string files;
   for (const AnimationFormat& format : animationFormats())

@@ -1,4 +1,4 @@
-// The options by which `ringlet simulate` chooses what it writes.
+// The options for the output files of `ringlet simulate`.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace ringlet::program {
 
-/// Outputs as typed, beside keys of [output].
+/// Options as typed; keys of [output] are typed elsewhere.
 struct OutputChoice {
   std::string sheet = "drawn";    // or rendered
   std::vector<std::string> also;  // further animations
@@ -21,10 +21,10 @@ struct OutputChoice {
 /// Adds the group of options "Output". `choice` and `keys` must outlive the command.
 void addOutputOptions(CLI::App& command, OutputChoice& choice, TypedKeys& keys);
 
-/// What was typed in place of what the scene says.
+/// Applies what was typed to the scene's output.
 void applyOutputOptions(const OutputChoice& choice, SceneOutput& output);
 
-/// Throws CLI11's error for what makes no sense together.
+/// Throws CLI11's error for outputs that exclude each other.
 void checkOutputs(const SceneOutput& output);
 
 }  // namespace ringlet::program

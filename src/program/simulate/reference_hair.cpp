@@ -75,7 +75,7 @@ class ReferenceHair : public SceneHair {
             .warnings = warnings_};
   }
 
-  // As takeChange and FrameForces take hair.
+  // The functions that takeChange and FrameForces need.
   Status cut(std::span<const StrandCut> cuts) {
     simulation_.cut(*groom_, material_, cuts);
     return {};
@@ -115,7 +115,7 @@ class ReferenceHair : public SceneHair {
     report.listed = simulation_.contacts().nearCount;
     report.contacts = from.contacts;
     report.pairTests = simulation_.contacts().pairTests;
-    report.rebuilds = from.steps;  // all pairs are found anew in every step
+    report.rebuilds = from.steps;  // every step searches all pairs
     report.momentumError = from.momentumError;
     return report;
   }
@@ -130,14 +130,14 @@ class ReferenceHair : public SceneHair {
   const Groom* groom_;
   Material material_;
   bool isStepByStep_;
-  std::deque<std::vector<Vec3f>> inFlight_;  // computed, and not waited for
+  std::deque<std::vector<Vec3f>> inFlight_;  // stepped, but not waited for yet
   std::vector<Vec3f> waited_;
   std::vector<std::string> warnings_;
   std::size_t rigidStrandCount_;
   ContactReport contactsAtRest_;
   reference::Simulation<double> simulation_;
   std::deque<double> times_;  // of the frames in flight [ms]
-  double milliseconds_ = 0;   // of those waited for
+  double milliseconds_ = 0;   // of all frames waited for
 };
 
 }  // namespace
@@ -155,7 +155,7 @@ Result<std::unique_ptr<SceneHair>> makeReferenceHair(const SceneHairInput& input
   if (!rest) return rest.error();
   ContactReport contacts;
   if (const ContactSettings& pairs = settings.contacts; pairs.on && !rest->strands.empty()) {
-    // The reference derives its own; these counts and warnings are those the solver gives.
+    // The reference derives its own contacts; these counts and warnings are computed as the solver does.
     const RestContacts atRest = buildRestContacts(*rest, pairs);
     contacts = {.contactParticles = atRest.particles.particles.size(),
                 .pairsUnpruned = atRest.graph.pairsUnpruned,

@@ -1,4 +1,4 @@
-// A scene's hair by the reference.
+// A scene's hair, stepped by the reference.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,7 @@
 
 namespace ringlet::program {
 
-/// In double precision, on one thread. Refuses what the solver refuses, and warns of what it warns of.
+/// In double precision, on one thread. It has the same refusals and warnings as the solver.
 Result<std::unique_ptr<SceneHair>> makeReferenceHair(const SceneHairInput& input);
 
 }  // namespace ringlet::program

@@ -47,7 +47,7 @@ class ReferenceMover : public FollowMover {
     if (isBlended_) {
       forEachStrand(poseGuide);
       forEachStrand(moveHairs);
-    } else {  // of few strands at a time, so that they stay in the caches
+    } else {  // few strands at a time, so that they stay in the caches
       forEachStrand([&](std::size_t s) {
         poseGuide(s);
         moveHairs(s);
@@ -68,7 +68,7 @@ class ReferenceMover : public FollowMover {
 
   const FollowPlan& plan_;
   std::vector<Body> bodies_;
-  std::vector<std::size_t> firstHair_;  // of each strand, and one more
+  std::vector<std::size_t> firstHair_;  // index of each strand's first hair, and the end
   bool isBlended_;                      // hairs follow several strands
 };
 

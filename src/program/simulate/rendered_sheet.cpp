@@ -10,7 +10,8 @@ namespace ringlet::program {
 
 namespace {
 
-// The last animation that can be read: a cache has the head's motion always and is read fastest.
+// The last animation that can be read again. A cache, which comes last, always contains the head's motion and
+// is the fastest to read.
 std::optional<std::string> readableOf(const RunOptions& options) {
   std::vector<std::string> names = animationsOf(options);
   std::erase_if(names, [](const std::string& name) { return !isAnimation(name); });

@@ -1,4 +1,4 @@
-// sheet.png of a run as the renderer draws it: full hair, with light, shadows and the run's bodies.
+// The sheet.png of a run, drawn by the renderer: full hair with light, shadows and the run's bodies.
 #pragma once
 
 #include "program/simulate/simulate_run.h"
@@ -7,11 +7,12 @@
 
 namespace ringlet::program {
 
-/// Why a run with these options can have none: it writes no animation with the head's motion in its points.
+/// Fails if the run writes no animation whose points contain the head's motion.
 Status checkRenderedSheet(const RunOptions& options);
 
-/// After a run of the scene with at least one frame: in place of the sheet that it has drawn, which stays
-/// where this fails. Cost: six pictures, a second each on lavapipe, and its kernels.
+/// Call after a run of the scene with at least one frame. Replaces the sheet that the run has drawn; if this
+/// fails, that one stays. Cost: six pictures, a second each on lavapipe, and compiling the renderer's
+/// kernels.
 Status writeRenderedSheet(const LoadedScene& scene, const SimulateOptions& options);
 
 }  // namespace ringlet::program

@@ -13,7 +13,7 @@
 namespace ringlet::program {
 namespace {
 
-constexpr double kFar = 0.05;  // hair that stays further from all bodies never met them [m]
+constexpr double kFar = 0.05;  // hair that stays farther from all bodies never touched them [m]
 
 std::string contactText(const RunOutcome& outcome, const ContactSettings& settings) {
   std::string text;
@@ -100,7 +100,7 @@ std::string runText(const RunNames& names, const Settings& settings, const RunOu
 int tellTroubles(const char* command, const RunOutcome& outcome, int frameCount) {
   for (const std::string& warning : outcome.warnings) say("ringlet {}: warning: {}\n", command, warning);
 
-  // Particles without a position: say which was the first, so that it can be looked at.
+  // Particles without a position: name the first, so that it can be examined.
   const SimulationReport& report = outcome.report;
   if (report.nonfinite > 0) {
     std::string first;

@@ -1,5 +1,5 @@
-// What a run is told as: one JSON object, a few lines of text, sentences on standard error. Commands that
-// step hair share it, so that the same key means the same everywhere.
+// The outcome of a run as one JSON object, as a few lines of text, and as sentences on standard error. All
+// commands that step hair use it, so that a key has the same meaning everywhere.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -11,15 +11,15 @@
 
 namespace ringlet::program {
 
-/// What the keys of --json mean, for --help.
+/// Help text: the meaning of the keys of --json.
 std::string runKeysHelp();
 
-/// runReport, to be added to.
+/// runReport as an object, to which keys may be added.
 nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings, const RunOutcome& outcome);
 std::string runText(const RunNames& names, const Settings& settings, const RunOutcome& outcome);
 
 /// Prints warnings, lost particles and an interruption to standard error, as `ringlet COMMAND`, and returns
-/// what the program is to return. frameCount: planned.
+/// the exit status. frameCount: number of planned frames.
 int tellTroubles(const char* command, const RunOutcome& outcome, int frameCount);
 
 }  // namespace ringlet::program

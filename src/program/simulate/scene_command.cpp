@@ -1,5 +1,5 @@
-// Implements scene_command.h: options to a BuiltinScene, which is stepped as `ringlet simulate` steps and
-// measured as `ringlet measure` measures.
+// Implements scene_command.h: turns options into a BuiltinScene, steps it as `ringlet simulate` does, and
+// measures it as `ringlet measure` does.
 #include "program/simulate/scene_command.h"
 #include "program/cli/standard_error.h"
 
@@ -83,12 +83,12 @@ struct TypedScene {
   SimulateOptions run;
   RunNames names{.material = "scene"};
   std::string core = "on", framesOn = "smoothed";
-  std::filesystem::path file;  // to write the scene to
+  std::filesystem::path file;  // file to write the scene to
   std::optional<int> subgroup;
   bool list = false, keys = false, untuned = false, json = false, quiet = false, overwrite = false;
 };
 
-// What a scene measures beside the run's own numbers.
+// Measures of a scene in addition to those of a run.
 struct SceneNumbers {
   CurlNumbers curl;
   std::optional<double> residual;   // of the velocity solve
@@ -107,7 +107,7 @@ void printList(bool asJson) {
   if (asJson) printJson({{"scenes", scenes}});
 }
 
-// What was measured, a line a subject, below the lines of the run.
+// The measures as text, a line for each subject, printed after the lines of the run.
 std::string measureText(const SceneNumbers& numbers, const Settings& settings) {
   const CurlNumbers& curl = numbers.curl;
   std::string text = fmt::format("  droop         {} mm at the end, {} mm at the worst frame{}\n",
@@ -136,7 +136,7 @@ std::string measureText(const SceneNumbers& numbers, const Settings& settings) {
   return text;
 }
 
-// Every key of a scene file, table by table.
+// Prints every key of a scene file, table by table.
 void printKeys(bool asJson) {
   nlohmann::ordered_json keys = nlohmann::json::array();
   std::string table;
@@ -160,7 +160,7 @@ void printKeys(bool asJson) {
       print("\n{}\n", isList ? "[[" + key.table + "]]" : "[" + key.table + "]");
     }
     table = key.table;
-    // The unit stands in the range, where there is one.
+    // If there is a range, it contains the unit.
     const std::string unit = key.range.empty() && !key.unit.empty() ? " " + key.unit : "";
     print("  {:<26} {}\n  {:<26} {}{}{}{}; default {}.{}\n", key.key, key.effect, "",
           static_cast<char>(std::toupper(static_cast<unsigned char>(key.type[0]))), key.type.substr(1), unit,
@@ -174,7 +174,7 @@ Error inScene(const TypedScene& typed, const Error& cause) {
   return Error{fmt::format("{}: {}", typed.name, cause.message), cause.fault};
 }
 
-// The groom at rest beside the animation, so that `ringlet measure DIR/groom.obj DIR` works.
+// Writes the groom at rest beside the animation, so that `ringlet measure DIR/groom.obj DIR` works.
 Status writeGroom(const BuiltinScene& scene, const SimulateOptions& options, RunOutcome& outcome) {
   if (outcome.outputs.empty()) return {};
   const std::filesystem::path path = options.folder / "groom.obj";
@@ -183,14 +183,14 @@ Status writeGroom(const BuiltinScene& scene, const SimulateOptions& options, Run
   return {};
 }
 
-// The largest turn of a strand frame in one outer step: the scene once more, with every step a frame of its
-// own. The steps are the same. Nothing if Ctrl-C ended it.
+// The largest turn of a strand's frame in one outer step: runs the scene again with the same steps, each a
+// frame of its own. None if Ctrl-C ended it.
 Result<std::optional<double>> measureFrameTurn(const BuiltinScene& scene, SimulateOptions options) {
   LoadedScene steps = scene;
   steps.settings = stepByStep(scene.settings);
   steps.frameCount *= scene.settings.stepsPerFrame;
   options.measuresContacts = false;
-  options.onRanks = false;  // the others have left
+  options.onRanks = false;  // the other ranks have ended
   options.folder.clear();
   options.measuresResidual = false;
 
@@ -213,7 +213,7 @@ nlohmann::ordered_json asJson(const TypedScene& typed, const BuiltinScene& scene
                               {"core", typed.scene.core},
                               {"frames_on", typed.framesOn}};
   json.update(runJson(typed.names, scene.settings, outcome));
-  // Where both know a number, the run's is that of every step.
+  // If both have a number, the run's is kept, since it covers every step.
   nlohmann::ordered_json curl;
   addCurlKeys(curl, numbers.curl);
   curl.erase("max_edge_stretch");
@@ -223,7 +223,7 @@ nlohmann::ordered_json asJson(const TypedScene& typed, const BuiltinScene& scene
   return json;
 }
 
-// The scene as a file, keys as typed in place of its own.
+// The scene as a file, with keys as typed.
 Result<SceneFile> fileOf(const BuiltinScene& scene, const std::filesystem::path& groom,
                          const TypedKeys& keys) {
   SceneFile file = sceneFileOf(scene, groom);
@@ -231,7 +231,7 @@ Result<SceneFile> fileOf(const BuiltinScene& scene, const std::filesystem::path&
   return parseTyped(sceneText(file), scene.name, keys);
 }
 
-// The scene as a file, its groom beside it.
+// Writes the scene as a file, and its groom beside it.
 Result<int> writeScene(const TypedScene& typed, const BuiltinScene& scene) {
   const std::filesystem::path folder = typed.file.parent_path(),
                               groom = folder / (typed.file.stem().string() + "-groom.obj");
@@ -254,7 +254,7 @@ Result<int> writeScene(const TypedScene& typed, const BuiltinScene& scene) {
   return kExitFine;
 }
 
-// Throws CLI11's error for keys of what a built-in scene does not take from a file.
+// Throws CLI11's error for keys that a built-in scene does not have.
 void checkSets(const TypedKeys& keys) {
   for (const SceneChange& change : keys.changes())
     for (const char* table : {"groom.", "output."})
@@ -266,7 +266,7 @@ void checkSets(const TypedKeys& keys) {
                         change.key));
 }
 
-// Keys as typed, in place of the scene's own.
+// Applies keys as typed to the scene.
 Status applyKeys(const TypedKeys& keys, BuiltinScene& scene) {
   if (keys.isEmpty()) return {};
   const auto file = fileOf(scene, "groom.obj", keys);
@@ -293,7 +293,7 @@ Result<int> runScene(TypedScene& typed) {
   if (const auto exitCode = joinRun(*scene, options)) return *exitCode;
   const Settings& settings = scene->settings;
 
-  // Measured from the groom itself on.
+  // Measures relative to the groom itself.
   const double unit = scene->groom.metresPerUnit;
   auto measure = MotionMeasure::make(scene->groom, {.framesPerSecond = settings.framesPerSecond,
                                                     .lineDensity = scene->material.lineDensity});
@@ -336,7 +336,7 @@ int run(TypedScene& typed) {
   return exitCodeOf(exitCode.error());
 }
 
-// Throws CLI11's error for what makes no sense with --list or --keys: everything but --json.
+// Throws CLI11's error for options that cannot be combined with --list or --keys: all except --json.
 void checkList(const CLI::App& command, bool list) {
   const std::string own = list ? "--list" : "--keys";
   for (const CLI::Option* option : command.get_options()) {
@@ -348,7 +348,7 @@ void checkList(const CLI::App& command, bool list) {
   }
 }
 
-// The same for --integrator paper, whose springs, frames and loads are as printed.
+// The same for --integrator paper, whose springs, frames and loads are those of the paper.
 void checkPaper(const TypedScene& typed) {
   const char* option = typed.scene.bendStiffness             ? "--bend-stiffness"
                        : !typed.scene.core                   ? "--core"
@@ -363,7 +363,7 @@ void checkPaper(const TypedScene& typed) {
   }
 }
 
-// What one option means for another. Throws CLI11's error for what makes no sense together.
+// Derives options from each other. Throws CLI11's error for those that exclude each other.
 void resolve(TypedScene& typed) {
   if (typed.name.empty()) throw CLI::RequiredError("NAME (or --list)");
   typed.scene.core = typed.core == "on";

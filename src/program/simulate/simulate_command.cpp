@@ -1,5 +1,5 @@
-// Implements simulate_command.h: options are changes of a scene, which is then run by simulate_run.cpp. What
-// is said of it is run_report.cpp.
+// Implements simulate_command.h: turns options into changes of a scene. simulate_run.cpp runs it,
+// run_report.cpp reports.
 #include "program/simulate/simulate_command.h"
 #include "program/cli/standard_error.h"
 
@@ -40,7 +40,7 @@
 namespace ringlet::program {
 namespace {
 
-constexpr int kMostFrames = 1'000'000;  // eleven hours at 24 a second; more is a slip of the finger
+constexpr int kMostFrames = 1'000'000;  // eleven hours at 24 a second; more is probably a typing error
 constexpr const char* kSimulateExample =
     "Examples:\n"
     "  ringlet make head -o head.obj && ringlet simulate head.obj --motion shake --frames 48 -o out\n"
@@ -67,7 +67,7 @@ constexpr const char* kSimulateExitHelp =
     "8 out of memory, 9 out of the device's memory, 10 device lost, 11 a kernel does not compile, 1 all "
     "others.";
 
-// The command line as typed; what is left out is the scene file's, or the default.
+// The command line as typed. What is not typed comes from the scene file or is the default.
 struct TypedSimulate {
   std::filesystem::path input, folder;
   TypedKeys keys;
@@ -83,7 +83,7 @@ struct TypedSimulate {
        resume = false, overwrite = false;
 };
 
-// Why a word is neither a built-in motion nor a file of one; empty where it is.
+// Why a word is neither a built-in motion nor a motion file; empty if it is one.
 std::string wrongMotion(std::string word) {
   if (motionFileKind(word) != MotionFileKind::none) return "";
   const std::string unknown = oneOf(namesIn(motionNames()))(word);
@@ -95,7 +95,7 @@ std::string wrongMotion(std::string word) {
   return fmt::format("{}{} name a {} file", unknown, unknown.ends_with('?') ? " Or" : "; or", kMotionEndings);
 }
 
-// A motion as typed, in place of the scene's: all of it goes but the time before and the roots.
+// Replaces the scene's motion by the one typed, except for the pre-roll and the roots.
 SceneChange motionChange(const std::string& word) {
   using Form = SceneChange::Form;
   const bool isFile = motionFileKind(word) != MotionFileKind::none;
@@ -105,7 +105,7 @@ SceneChange motionChange(const std::string& word) {
   return change;
 }
 
-// Throws CLI11's error for what makes no sense together.
+// Throws CLI11's error for options that exclude each other.
 void checkOptions(const TypedSimulate& typed, const SceneFile& scene) {
   if (scene.output.folder.empty()) throw CLI::RequiredError("--output");
   checkOutputs(scene.output);
@@ -136,7 +136,7 @@ void checkOptions(const TypedSimulate& typed, const SceneFile& scene) {
   }
 }
 
-// How the scene is run.
+// The options of the run.
 SimulateOptions optionsOf(const TypedSimulate& typed, const SceneFile& scene) {
   SimulateOptions options(runOptionsOf(scene));
   options.measuresContacts = typed.measuresContacts;
@@ -235,7 +235,7 @@ void addSimulationOptions(CLI::App& command, TypedKeys& keys) {
       ->group(group);
 }
 
-// Where it runs.
+// Options for where the run is computed.
 void addMachineOptions(CLI::App& command, TypedSimulate& typed) {
   const char* machine = "Machine";
   addBackendOption(command, typed.backend)->group(machine);
@@ -282,7 +282,7 @@ void addMachineOptions(CLI::App& command, TypedSimulate& typed) {
       ->group(machine);
 }
 
-// How it begins and goes on, and what is said.
+// Options for how the run begins and continues, and what it prints.
 void addRunOptions(CLI::App& command, TypedSimulate& typed) {
   const char* output = "Output";
   command
@@ -354,7 +354,6 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
   addMotionOptions(*command, typed->keys);
   addSimulationOptions(*command, typed->keys);
 
-  // What hair is made of.
   addMaterialOptions(command, typed->material, "Material");
 
   addContactOptions(*command, typed->keys, "off");

@@ -35,8 +35,8 @@ Result<RunOutcome> simulate(const LoadedScene& scene, const SimulateOptions& opt
                    .observe = observer};
   if (options.tellsFrames) events.written = [&](int frame) { lines->tell(frame); };
   const auto makeIt = [&](const SceneHairInput& input) {
-    // Until the first frame is there, in which drivers compile too. In a sweep others write, and ranks end
-    // together.
+    // Until the first frame is done, since drivers compile in it too. Not in a sweep, where other threads
+    // write, and not among ranks, which must end together.
     if (options.runNumber == 0 && !options.onRanks) unheard.emplace();
     return makeHair(input, options);
   };

@@ -1,5 +1,5 @@
-// A run of hair as the program has it: on a device, on several, by the reference or among ranks; with its
-// progress shown, and ended by Ctrl-C.
+// Runs hair as the program does: on one or several devices, by the reference or among ranks; shows its
+// progress, and ends early on Ctrl-C.
 #pragma once
 
 #include "program/device/device_choice.h"
@@ -9,21 +9,21 @@
 
 namespace ringlet::program {
 
-/// The program's options for what errors advise.
+/// The names of the program's options, for error messages.
 RunWords programWords();
 
-/// Where hair is stepped, and what is told meanwhile.
+/// Where hair is stepped, and what is printed meanwhile.
 struct SimulateOptions : RunOptions, DeviceChoice {
   SimulateOptions(RunOptions run = {});
 
-  bool onReference = false;  // rather than on devices
-  bool onRanks = false;      // each has a part of the hair (mpi/rank_hair.h)
+  bool onReference = false;  // instead of on devices
+  bool onRanks = false;      // each rank has a part of the hair (mpi/rank_hair.h)
   bool showProgress = true;
-  bool tellsFrames = false;  // a line of JSON a finished frame, on standard output
-  int runNumber = 0;         // of a sweep, which these lines say; 0: of none
+  bool tellsFrames = false;  // prints a line of JSON on standard output for each finished frame
+  int runNumber = 0;         // number within a sweep, for these lines; 0: no sweep
 };
 
-/// runScene, which Ctrl-C ends early, but well.
+/// Calls runScene; Ctrl-C ends the run early, but properly.
 Result<RunOutcome> simulate(const LoadedScene& scene, const SimulateOptions& options,
                             const FrameObserver& observer = {});
 

@@ -1,5 +1,5 @@
-// Implements sweep_command.h: options to a plan, which sweep_run.cpp runs; sweep_table.cpp and
-// sweep_sheet.cpp tell what came of it.
+// Implements sweep_command.h: turns options into a plan. sweep_run.cpp runs it, sweep_table.cpp and
+// sweep_sheet.cpp show the results.
 #include "program/sweep/sweep_command.h"
 
 #include <fmt/format.h>
@@ -75,7 +75,7 @@ struct TypedSweep {
   bool noSheet = false, untuned = false, list = false, json = false, quiet = false;
 };
 
-// "2/4": the second of four parts. Throws CLI11's error for anything else.
+// Reads "2/4", the second of four parts. Throws CLI11's error for anything else.
 void readPart(const std::string& typed, SweepOptions& options) {
   const std::size_t slash = typed.find('/');
   const auto number = [](std::string_view text) {
@@ -92,7 +92,7 @@ void readPart(const std::string& typed, SweepOptions& options) {
                                fmt::format("'{}' is no part; expected i/n, from 1/n to n/n", typed));
 }
 
-// What makes no sense, or would be lost, is told before anything runs.
+// Reports conflicts, and what would be lost, before anything runs.
 std::vector<SweepAxis> readAxes(const TypedSweep& typed) {
   std::vector<SweepAxis> axes;
   for (SceneChange& set : typed.keys.changes()) axes.push_back({std::move(set.key), {std::move(set.value)}});
@@ -108,7 +108,7 @@ Status writeText(const std::filesystem::path& path, const std::string& text) {
   return writeWholeFile(path, std::as_bytes(std::span<const char>(text)));
 }
 
-// The table and the sheet, of all that is known by now.
+// Writes the table and the sheet with all results so far.
 Status writeResults(std::vector<SweepEntry>& entries, std::span<const SweepAxis> axes,
                     const SweepOptions& options) {
   const std::string json =
@@ -120,7 +120,7 @@ Status writeResults(std::vector<SweepEntry>& entries, std::span<const SweepAxis>
   return writeSweepSheet(options.folder / "sheet.png", entries, axes, options);
 }
 
-// Last digits differ from device to device.
+// Warns if runs used several devices, whose results differ in the last digits.
 void warnOfDevices(std::span<const SweepEntry> entries) {
   std::set<std::string> devices;
   for (const SweepEntry& entry : entries) {

@@ -1,4 +1,4 @@
-// `ringlet sweep`: a scene with some of its keys varied, every combination a run.
+// `ringlet sweep`: runs a scene with every combination of some varied keys.
 #pragma once
 
 #include "program/cli/cli_fwd.h"

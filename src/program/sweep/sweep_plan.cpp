@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// At the parts that stand outside of brackets and quotes.
+// Splits at separators outside of brackets and quotes.
 std::vector<std::string> partsOf(std::string_view text, char separator) {
   std::vector<std::string> parts(1);
   int depth = 0;
@@ -49,7 +49,7 @@ std::optional<Number> numberOf(const std::string& text) {
   return number;
 }
 
-// The n values of "a:b:n"; nothing where the text is none.
+// The n values of "a:b:n"; none if the text is no such range.
 std::optional<std::vector<std::string>> rangeOf(std::string_view text) {
   const std::vector<std::string> parts = partsOf(text, ':');
   if (parts.size() != 3) return std::nullopt;
@@ -112,7 +112,7 @@ Result<std::vector<SweepRun>> planRuns(const fs::path& scene, std::span<const Sw
                                        SceneReach reach) {
   if (Status checked = checkAxes(axes); !checked) return checked.error();
   std::vector<SweepRun> runs;
-  std::vector<std::size_t> at(axes.size(), 0);  // which value of each
+  std::vector<std::size_t> at(axes.size(), 0);  // index into the values of each axis
   for (bool isDone = false; !isDone;) {
     SweepRun run{static_cast<int>(runs.size()) + 1, {}, {}};
     for (std::size_t i = 0; i < axes.size(); ++i) run.changes.push_back({axes[i].key, axes[i].values[at[i]]});
@@ -125,7 +125,7 @@ Result<std::vector<SweepRun>> planRuns(const fs::path& scene, std::span<const Sw
     run.scene.output.folder.clear();
     makePathsAbsolute(run.scene);
     runs.push_back(std::move(run));
-    // As a counter: the last axis first.
+    // Counts up with the last axis fastest.
     isDone = true;
     for (std::size_t i = axes.size(); i-- > 0 && isDone;) {
       at[i] = (at[i] + 1) % axes[i].values.size();

@@ -1,5 +1,5 @@
-// SweepRecord: what a finished run of a sweep leaves in its folder, run.json, so that the sweep need not run
-// it again.
+// SweepRecord: the record that a finished run of a sweep leaves in its folder, run.json, so that the sweep
+// need not repeat it.
 #pragma once
 
 #include <filesystem>
@@ -13,14 +13,14 @@
 namespace ringlet::program {
 
 struct SweepRecord {
-  std::vector<RunFact> facts;     // what it was a run of
+  std::vector<RunFact> facts;     // which identify the run
   nlohmann::ordered_json report;  // the keys of `ringlet simulate --json`, and those of sweeps
 };
 
-/// Replaces the file at once. Errors: those of a file that cannot be written.
+/// Replaces the file as a whole. Errors: those of writing a file.
 Status writeRecord(const std::filesystem::path& path, const SweepRecord& record);
 
-/// Nothing where there is no file. Errors: it cannot be read, or is no record.
+/// None if there is no file. Errors: it cannot be read, or is no record.
 Result<std::optional<SweepRecord>> readRecord(const std::filesystem::path& path);
 
 }  // namespace ringlet::program

@@ -47,11 +47,11 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kRecord = "run.json";
 constexpr const char* kScene = "scene.toml";
 
-// What a run writes, and where.
+// The options of a run: what it writes, and where.
 SimulateOptions optionsOf(const SweepRun& run, const SweepOptions& sweep) {
   SimulateOptions options(runOptionsOf(run.scene));
   options.folder = folderOf(run, sweep);
-  options.writesLast = true;  // the sheet is drawn of it
+  options.writesLast = true;  // the sheet is drawn from it
   if (sweep.lastOnly) {
     options.animations.clear();
     options.writesSheet = options.usesGroomPrims = false;
@@ -67,7 +67,7 @@ SimulateOptions optionsOf(const SweepRun& run, const SweepOptions& sweep) {
   return options;
 }
 
-// The scene as a file in the run's folder: `ringlet simulate` runs it again.
+// The scene as a file for the run's folder, so that `ringlet simulate` can repeat the run.
 std::string sceneTextOf(const SweepRun& run) {
   std::string heading = fmt::format("# Run {} of a sweep:\n", run.number);
   for (const SceneChange& change : run.changes)
@@ -80,7 +80,7 @@ bool holdsText(const fs::path& path, const std::string& text) {
   return bytes && std::ranges::equal(*bytes, std::as_bytes(std::span<const char>(text)));
 }
 
-// Facts of runs; of files that several read, each is looked at once.
+// The facts of runs. A file that several runs read is examined only once.
 class SweepFacts {
  public:
   explicit SweepFacts(const SweepOptions& options) : options_(options) {}
@@ -110,7 +110,7 @@ class SweepFacts {
   std::map<std::vector<fs::path>, std::vector<RunFact>> contents_;
 };
 
-// The last frame, and where it is asked for all of them measured; on the writer's thread.
+// Keeps the last frame and, if asked for, measures all of them; on the writer's thread.
 class FrameWatch {
  public:
   FrameWatch(const LoadedScene& scene, Vec3d up) : scene_(scene), up_(up) {}
@@ -139,7 +139,7 @@ class FrameWatch {
     if (!measure_) return;
     Json curl;
     addCurlKeys(curl, curlNumbers(measure_->ruler(), measure_->report()));
-    curl.erase("max_edge_stretch");  // the run's is that of every step
+    curl.erase("max_edge_stretch");  // the run's own value covers every step
     report.update(curl);
   }
 
@@ -153,12 +153,12 @@ class FrameWatch {
   std::optional<MotionMeasure> measure_;
 };
 
-// Runs, with what they share; each may have a thread of its own.
+// Executes runs, with the data that they share. Runs may be on different threads.
 class Sweep {
  public:
   explicit Sweep(const SweepOptions& options) : options_(options), facts_(options) {}
 
-  /// The device of all runs, opened by the first; none on the reference.
+  /// The device of all runs, opened by the first; none with the reference.
   Result<std::optional<ComputeDevice>> device() {
     const std::scoped_lock lock(mutex_);
     if (device_ || options_.onReference) return device_;
@@ -174,7 +174,7 @@ class Sweep {
       entry.error = error.message;
       entry.exitCode = program::exitCodeOf(error);
       if (error.fault != Fault::deviceLost) return;
-      // What comes next may find another device of that name, or the same after its reset.
+      // The next run may find another device of that name, or the same one after its reset.
       const std::scoped_lock lock(mutex_);
       device_.reset();
     };
@@ -185,7 +185,7 @@ class Sweep {
     }
   }
 
-  /// Each sentence once, with the runs it is of.
+  /// Prints each warning once, with the runs it concerns.
   void tellWarnings() const {
     for (const auto& [sentence, runs] : warnings_) {
       const std::string others = runs.size() > 1 ? fmt::format(" and {} more", runs.size() - 1) : "";
@@ -194,13 +194,13 @@ class Sweep {
   }
 
  private:
-  // A groom, and what runs would each measure of it.
+  // A groom with its geometry, which each run would measure otherwise.
   struct SharedGroom {
     std::shared_ptr<const LoadedGroom> loaded;
-    SharedGeometry geometry;  // none: each run says what is wrong with it
+    SharedGeometry geometry;  // none: each run reports the error
   };
 
-  // One at a time is kept for the runs that have the same.
+  // Keeps one groom, for runs that need the same.
   Result<SharedGroom> groomOf(const SceneGroom& scene, bool withOrigin) {
     const std::scoped_lock lock(groomMutex_);
     if (groom_.loaded && groomScene_ == scene && groomHasOrigin_ == withOrigin) return groom_;
@@ -225,8 +225,8 @@ class Sweep {
     for (const std::string& warning : warnings) warnings_[warning].insert(run);
   }
 
-  // The run's folder, with its scene. What a run of this scene left there makes way: it has no record, so it
-  // did not end. Of all else nothing is touched.
+  // Prepares the run's folder, with its scene. Files that a run of this scene left there are removed: without
+  // a record it did not end. Nothing else is touched.
   Status prepareFolder(const SweepRun& run, const RunOptions& options) const {
     const fs::path& folder = options.folder;
     std::error_code code;
@@ -290,13 +290,13 @@ class Sweep {
   std::mutex mutex_, groomMutex_;
   SweepFacts facts_;
   std::optional<ComputeDevice> device_;
-  std::map<std::string, std::set<int>> warnings_;  // with the runs they are of
+  std::map<std::string, std::set<int>> warnings_;  // with the runs they concern
   SharedGroom groom_;
-  SceneGroom groomScene_;  // whose it is
+  SceneGroom groomScene_;  // which groom_ was read for
   bool groomHasOrigin_ = false;
 };
 
-// What is said as runs end: a bar, lines of JSON, failures.
+// Output as runs end: a bar, lines of JSON, failures.
 class SweepProgress {
  public:
   SweepProgress(std::size_t count, std::span<const SweepAxis> axes, const SweepOptions& options)
@@ -322,7 +322,7 @@ class SweepProgress {
   void clear() { bar_.clear(); }
 
  private:
-  // {"run": 3, "runs": 20, "state": "finished", "seconds": 3.1, "seconds_left": 17.6}
+  // Prints {"run": 3, "runs": 20, "state": "finished", "seconds": 3.1, "seconds_left": 17.6}
   void tellLine(const SweepEntry& entry) const {
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
     const std::string line = fmt::format(
@@ -376,7 +376,7 @@ Result<std::vector<SweepEntry>> lookAtRuns(std::span<const SweepRun> runs, const
     if (!record) return record.error();
     if (!*record) continue;
     const auto facts = known.of(run);
-    if (!facts) continue;  // a file is missing: its run will say so
+    if (!facts) continue;  // a file is missing; its run will report it
     if (const std::string differences = differencesOf(*facts, (*record)->facts); !differences.empty()) {
       return Error{
           fmt::format(

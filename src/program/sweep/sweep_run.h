@@ -1,4 +1,4 @@
-// A sweep: its runs in one process, on one device whose kernels are compiled once.
+// A sweep: runs in one process, on one device, whose kernels are compiled once.
 #pragma once
 
 #include <cstdint>
@@ -15,55 +15,55 @@
 namespace ringlet::program {
 
 struct SweepOptions {
-  std::filesystem::path folder;  // each run has run-0001, run-0002, ... in it
+  std::filesystem::path folder;  // contains run-0001, run-0002, ..., a folder for each run
   std::string device;            // as SimulateOptions::device
-  bool onReference = false;      // rather than on the GPU
+  bool onReference = false;      // instead of on the GPU
   bool usesTuned = true;         // as SimulateOptions::usesTuned
-  bool lastOnly = false;         // of each run last.obj, and nothing else
+  bool lastOnly = false;         // each run writes last.obj and nothing else
   bool measures = false;         // every frame, as `ringlet measure` does
-  bool overwrites = false;       // finished runs too
-  bool tellsProgress = false;    // a line of JSON a frame and a run, on standard output
+  bool overwrites = false;       // also finished runs
+  bool tellsProgress = false;    // prints a line of JSON on standard output for each frame and run
   bool showProgress = true;
   bool drawsSheet = true;
-  int jobs = 2;  // runs at a time: one is read, prepared and written while another is stepped
-  std::size_t part = 1, parts = 1;  // only the runs of this part, counted out in turn
+  int jobs = 2;  // runs at a time: while one is stepped, others are read, prepared and written
+  std::size_t part = 1, parts = 1;  // this process does runs part, part + parts, part + 2 parts, ... only
 };
 
-/// What became of a run.
+/// The state of a run.
 enum class RunState { open, finished, kept, failed, interrupted };
 
 /// Some strands of the last frame, for the sheet.
 struct SweepCell {
   std::vector<std::uint32_t> firstPoint;  // as in Groom
-  std::vector<Vec3f> points;              // [m]; none: nothing to show
+  std::vector<Vec3f> points;              // [m]; empty: nothing to show
 };
 
 struct SweepEntry {
   const SweepRun* run = nullptr;
-  RunState state = RunState::open;  // kept: it was finished before
-  bool isOurs = true;               // of the part that was asked for
-  nlohmann::ordered_json report;    // finished or kept: as SweepRecord has it
+  RunState state = RunState::open;  // kept: it was finished before this sweep
+  bool isOurs = true;               // it belongs to the part that was asked for
+  nlohmann::ordered_json report;    // if finished or kept: as in SweepRecord
   int exitCode = 0;
-  std::string error;  // failed: why
+  std::string error;  // if failed: the reason
   SweepCell cell{};
 };
 
-/// finished, kept, failed, interrupted; open: "to do".
+/// "finished", "kept", "failed", "interrupted"; "to do" for open.
 const char* nameOf(RunState state);
 
 std::filesystem::path folderOf(const SweepRun& run, const SweepOptions& options);
 
-/// What is known of the runs without running any. Errors: a folder holds a finished run of other values, with
-/// what differs.
+/// The state of the runs before any is started. Errors: a folder holds a finished run with other values; the
+/// message says what differs.
 Result<std::vector<SweepEntry>> lookAtRuns(std::span<const SweepRun> runs, const SweepOptions& options);
 
-/// Runs what is open; a run that fails says so in its entry, and the others go on. Ctrl-C ends the run under
-/// way as it ends `ringlet simulate`, and the sweep. Errors: no device.
+/// Executes the open runs. If one fails, its entry says so and the others go on. Ctrl-C ends the current runs
+/// as it ends `ringlet simulate`, and the sweep. Errors: no device.
 Status runSweep(std::vector<SweepEntry>& entries, std::span<const SweepAxis> axes,
                 const SweepOptions& options);
 
-/// Of the program, once runSweep() is done: that of an interruption, which runs that are still open tell too,
-/// else of the first run that failed, else of particles that were lost.
+/// The program's exit status after runSweep(): that of an interruption, if runs are still open; else that of
+/// the first run that failed; else that of lost particles.
 int exitCodeOf(std::span<const SweepEntry> entries);
 
 }  // namespace ringlet::program

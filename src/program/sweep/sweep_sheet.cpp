@@ -14,12 +14,12 @@
 namespace ringlet::program {
 namespace {
 
-constexpr std::size_t kMostStrands = 300;  // of a cell, which has 240 pixels across
+constexpr std::size_t kMostStrands = 300;  // in a cell, which is 240 pixels wide
 constexpr int kCellWidth = 240, kCellHeight = 320, kDot = 2;
-constexpr std::size_t kMostLetters = 19;  // of a line of a cell
+constexpr std::size_t kMostLetters = 19;  // in a line of a cell
 constexpr int kMostColumns = 12;
 
-// The last frame of a run that was finished before; nothing where it cannot be read.
+// The last frame of a run that was finished before; empty if it cannot be read.
 SweepCell readCell(const SweepEntry& entry, const SweepOptions& options) {
   auto read = readGroom(folderOf(*entry.run, options) / "last.obj", {});
   if (!read) return {};

@@ -1,4 +1,4 @@
-// The contact sheet of a sweep: the last frame of every run in one picture, seen by one camera.
+// The contact sheet of a sweep: the last frame of every run in one picture, with the same camera.
 #pragma once
 
 #include <filesystem>
@@ -12,14 +12,15 @@
 
 namespace ringlet::program {
 
-inline constexpr std::size_t kMostCells = 100;  // of a sheet; of more runs the first are shown
+inline constexpr std::size_t kMostCells = 100;  // in a sheet; if there are more runs, the first are shown
 
-/// What is shown of a pose: at most some hundred strands, evenly chosen. points: of the groom, in its unit.
+/// The part of a pose that is shown: at most some hundred strands, evenly spaced. points: of the groom, in
+/// its unit.
 SweepCell cellOf(const Groom& groom, std::span<const Vec3f> points);
 
-/// A cell a run, with its number and values below; runs that are kept are read from their last.obj. With two
-/// axes a row is of one value of the first. Nothing where no run is finished. Errors: the file cannot be
-/// written.
+/// Draws a cell for each run, with its number and values below; runs that are kept are read from their
+/// last.obj. With two axes each row shows one value of the first. Writes nothing if no run is finished.
+/// Errors: the file cannot be written.
 Status writeSweepSheet(const std::filesystem::path& path, std::vector<SweepEntry>& entries,
                        std::span<const SweepAxis> axes, const SweepOptions& options);
 

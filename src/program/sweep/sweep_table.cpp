@@ -13,8 +13,8 @@ using Json = nlohmann::ordered_json;
 
 struct Column {
   const char* key;
-  int digits;       // after the point, in text; -1: not in text
-  bool isMeasured;  // with --measure only
+  int digits;       // decimals, in text; -1: not shown in text
+  bool isMeasured;  // only with --measure
 };
 
 constexpr Column kColumns[] = {
@@ -49,7 +49,7 @@ Json numberIn(const SweepEntry& entry, const char* key) {
   return entry.report.is_object() ? entry.report.value(key, Json()) : Json();
 }
 
-// As RFC 4180 has it.
+// A cell in the format of RFC 4180.
 std::string csvCell(std::string text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -68,7 +68,7 @@ std::string textOf(const Json& value, int digits) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-// Rows of as many cells as the first, which is the heading.
+// Aligns the columns. The first row is the heading.
 std::string aligned(const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths(rows[0].size(), 0);
   for (const auto& row : rows) {

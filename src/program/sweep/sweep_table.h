@@ -1,4 +1,4 @@
-// The table of a sweep: a line a run, as text, CSV and JSON.
+// The table of a sweep, a line for each run, as text, CSV and JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,16 +9,16 @@
 
 namespace ringlet::program {
 
-/// Keys: runs, of each run state exit_status values {key: value} and, once it is finished, the numbers of
-/// tables; error where it failed.
+/// Keys: runs; for each run state, exit_status, values {key: value}, and the table's numbers if it is
+/// finished, or error if it failed.
 nlohmann::ordered_json sweepJson(std::span<const SweepEntry> entries, std::span<const SweepAxis> axes,
                                  const SweepOptions& options);
 
-/// A column a key, with the names of JSON.
+/// A column for each key, with the names of the JSON.
 std::string sweepCsv(std::span<const SweepEntry> entries, std::span<const SweepAxis> axes,
                      const SweepOptions& options);
 
-/// For a person: columns of equal width, values of what varies.
+/// For people: aligned columns, with the values that vary.
 std::string sweepText(std::span<const SweepEntry> entries, std::span<const SweepAxis> axes,
                       const SweepOptions& options);
 

@@ -1,4 +1,4 @@
-// Implements view_command.h: options to a ViewPlan. The window is in src/view.
+// Implements view_command.h: turns options into a ViewPlan. The window is in src/view.
 #include "program/view/view_command.h"
 
 #include <fmt/format.h>
@@ -72,7 +72,7 @@ struct TypedView {
 
 #ifdef RINGLET_HAS_WINDOW
 
-// The bodies of the scene, or else a head where roots are on a ball.
+// Adds the bodies of the scene, or else a head if roots lie on a ball.
 void addSolids(const LoadedScene& scene, Vec3d up, view::ViewPlan& plan) {
   const Groom& groom = scene.groom;
   Vec3d low{1e9, 1e9, 1e9}, high = low * -1.0;
@@ -117,7 +117,7 @@ Result<view::ViewOutcome> runScene(const TypedView& typed, const SceneFile& file
   addSolids(scene, plan.up, plan);
   if (Status added = addHairs(scene, typed.hairs, hairLookOf(typed.keys), plan); !added) return added.error();
   const auto [width, height] = *parsePair(typed.size, 'x');
-  // Volumes of light as a preview needs them.
+  // Coarse volumes of light, enough for a preview.
   plan.look.size = {.width = width,
                     .height = height,
                     .side = typed.samples,
@@ -180,7 +180,7 @@ int run(TypedView typed) {
 #else
 
 int run(const TypedView& typed) {
-  // What it would be given is looked at all the same.
+  // Checks the input even though there is no window.
   if (const auto file = readTyped(typed.input, typed.keys, typed.reach, "still"); !file)
     return fail("view", file.error());
   const std::string missing = RINGLET_VIEW_MISSING;

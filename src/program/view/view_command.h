@@ -1,4 +1,4 @@
-// `ringlet view`: a window in which a scene's hair moves, and its numbers change.
+// `ringlet view`: a window that shows a scene's hair in motion and lets its numbers be changed.
 #pragma once
 
 #include "program/cli/cli_fwd.h"
