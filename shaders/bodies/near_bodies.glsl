@@ -1,10 +1,10 @@
-// Which bodies a stretch of a strand may meet in a step: by a sphere about it, ways included.
+// Finds the bodies that a run may meet in a step, by their bounding spheres and the distances that both move.
 #ifndef RINGLET_NEAR_BODIES
 #define RINGLET_NEAR_BODIES
 
 #include "shared/body_buffers.glsl"
 
-/// The box about what a stretch of particles passes through.
+/// A box around all places of some particles in a step.
 struct Room {
   vec3 low;
   vec3 high;
@@ -15,7 +15,7 @@ void include(inout Room room, vec3 p) {
   room.high = max(room.high, p);
 }
 
-/// The first body from b on that is within `reach` of the room; bodyCount where there is none.
+/// The first body from b on that is within `reach` of the room; bodyCount if there is none.
 uint nextNear(Room room, float reach, uint step, uint bodyCount, uint b) {
   vec3 middle = 0.5 * (room.low + room.high);
   float radius = 0.5 * length(room.high - room.low) + reach;

@@ -1,4 +1,4 @@
-// The air: drag on this lane's particles. Included by kernels/strand_step.comp.
+// Drag of the air on the particles of this lane's run. Included by kernels/strand_step.comp.
 #ifndef RINGLET_RUN_AIR
 #define RINGLET_RUN_AIR
 
@@ -9,10 +9,10 @@
 #include "shared/strand_run.glsl"
 
 AirDrag drag[RUN];
-vec3 tangent[RUN];  // of length 1, or zero
+vec3 tangent[RUN];  // unit vector, or zero
 vec3 wind[RUN];     // relative to the head's translation [m/s]
 
-// From positions and velocities at the step's start.
+// Uses positions and velocities at the step's start.
 void feelAir(uint step) {
   StepAir air = stepAir(step);
   RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) wind[k] = air.wind.xyz;

@@ -1,8 +1,8 @@
-// Bodies: what they ask of this lane's particles, in the velocity solve and after the move. Included by
-// kernels/strand_step.comp and integrators/jacobi.glsl. Mirrored by reference/kernels/body_step.h. A first loop tests
-// all particles against a body and notes as bits those that may touch it; a second loop picks these from the run, one
-// by one, and does the work. The first loop takes a few particles a turn: unrolled over the run, it would double the
-// kernel's code.
+// Collisions of the particles of this lane's run with bodies, in the velocity solve and after the move.
+// Included by kernels/strand_step.comp and integrators/jacobi.glsl. Mirrored by
+// reference/kernels/body_step.h. A first loop tests all particles against a body and stores as bits those
+// that may touch it; a second loop picks these from the run, one by one, and does the work. The first loop
+// tests a few particles a turn: unrolled over the run, it would double the kernel's code.
 #ifndef RINGLET_RUN_BODIES
 #define RINGLET_RUN_BODIES
 
@@ -13,37 +13,40 @@
 #include "shared/body_buffers.glsl"
 #include "shared/strand_run.glsl"
 
-// What all bodies together ask of particle k: weight v = momentum, in the solve; and of the heaviest of what they ask,
-// which rubs: xyz normal, w weight; xyz the body's velocity, w its friction; the speed asked for along the normal.
+// Sum of all bodies' pushes on particle k in the solve (weight * v = momentum). Friction uses only the
+// heaviest push: xyz normal, w weight; xyz velocity of the body, w its friction; required speed along the
+// normal.
 Symmetric pushWeight[RUN];
 vec3 pushMomentum[RUN];
 vec4 pushNormal[RUN];
 vec4 pushBody[RUN];
 float pushTarget[RUN];
 float rubbing[RUN];  // friction's weight along the surface
-// The same of the next lane's first particle, asked for by the edge to it.
+// The same for the next lane's first particle, pushed through the edge to it.
 Symmetric nextWeight;
 vec3 nextMomentum;
 vec4 nextNormal;
 vec4 nextBody;
 float nextTarget;
 
-vec3 pStart[RUN];  // where particles were before the move
-bool isClear;      // nothing of the strand touches a body on its way, at the velocities without bodies
+vec3 pStart[RUN];  // positions before the move
+bool isClear;      // nothing of the strand touches a body during the step, at the velocities without bodies
 
-// Looks are over some particles at a time, a part of the run; the next lane's first is looked at too. What is noted
-// fills a word after ten parts; a run in memory may have more, and is gone through word by word.
+// The first loop tests kPart particles at a time, a part of the run; it includes the next lane's first
+// particle. The bits of ten parts fill a word; a run in memory may have more parts and is processed word by
+// word.
 const int kPart = 3;
 const uint kLookParts = (RUN + kPart) / kPart;
 const uint kPartsOfWord = 10;
 bool fillsWord(uint part) { return kInMemory && part % kPartsOfWord == 0; }
-// Whether looks go on in another word; else the run is done.
+// Whether another word of parts follows; else the run is done.
 bool isAnotherWord(uint part) { return kInMemory && part < kLookParts; }
 
-// Picks, from registers by comparing: an array that is indexed by a variable lives in memory.
+// Picks a value from the run. In registers this compares indices, since an array that is indexed by a
+// variable lives in memory.
 //   RINGLET_PICK(values, next, k)           of particle k of the run; RUN is the next lane's first
-//   RINGLET_LOOK_AT(values, next, part, j)  the same for looks: of the j-th in a part of the run
-//   RINGLET_AT(j, k, something)             does something to particle j, which is k, if the run has it
+//   RINGLET_LOOK_AT(values, next, part, j)  the same for the first loop: of particle j of a part of the run
+//   RINGLET_AT(j, k, something)             does something with particle j = k, if the run has it
 #ifdef RINGLET_IN_MEMORY
 #define RINGLET_PICK(values, next, k) ((k) < RUN ? values[min(k, RUN - 1)] : next)
 #define RINGLET_LOOK_AT(values, next, part, j) RINGLET_PICK(values, next, int(part) * kPart + j)
@@ -72,7 +75,8 @@ vec3 pickedInPart(vec3 values[RUN], vec3 next, uint part, int j) {
   [[unroll]] for (int j = 0; j < RUN; ++j) { if (j == (k)) something; }
 #endif
 
-// Along the strand at particle k; edgeBefore: direction of the edge that ends at this lane's first.
+// The strand's tangent at particle k; edgeBefore: direction of the edge that ends at this lane's first
+// particle.
 vec3 tangentAt(int k, vec3 edgeBefore) {
   vec3 sum = vec3(0);
   RINGLET_AT(j, k, sum = (j > 0 ? eHat[max(j - 1, 0)] : edgeBefore) + (isEdge(j) ? eHat[j] : vec3(0)))
@@ -120,7 +124,7 @@ void push(int k, float weight, vec3 n, float target, vec3 u, float friction) {
   }
 }
 
-// What the lane before asks of this one's first particle.
+// Adds the pushes that the lane before has found for this one's first particle.
 void passPushesOn() {
   Symmetric weight = Symmetric(fromRootward(nextWeight.d, 1), fromRootward(nextWeight.o, 1));
   vec3 momentum = fromRootward(nextMomentum, 1);
@@ -144,14 +148,14 @@ float massAt(int k, float next) {
 }
 bool isPinnedAt(int k) { return first + k < rootCount(); }
 
-struct NextParticle {  // the next lane's first
+struct NextParticle {  // first particle of the next lane
   vec3 p;
   vec3 v;
   float mass;
 };
 
-// What a body asks of the edge from particle k to l, in the end that touches first or between them; or of particle k,
-// which is an edge to itself.
+// Adds a body's pushes on the edge from particle k to l, at the end that touches first or between the ends;
+// or, if k = l, on particle k.
 void askOf(BodyStep body, int k, int l, NextParticle next, vec3 edgeBefore, inout uint touched, inout uint asked) {
   float T = stepSeconds();
   bool isOne = k == l;
@@ -182,8 +186,8 @@ void askOf(BodyStep body, int k, int l, NextParticle next, vec3 edgeBefore, inou
   asked = 1;
 }
 
-// Everything that bodies ask, from positions and v, the velocities without them. Whether they ask anything of the
-// strand; sets isClear.
+// Finds the pushes of all bodies, from positions and v, the velocities without bodies. Returns whether there
+// are pushes on the strand; sets isClear.
 bool findPushes(uint step) {
   float T = stepSeconds();
   NextParticle next =
@@ -203,12 +207,12 @@ bool findPushes(uint step) {
   uint b = nextNear(room, reach, step, numbers.bodyCount, 0);
   if (b < numbers.bodyCount) do {
     BodyStep body = bodyStep(step, numbers.bodyCount, b);
-    float roomBefore = 0.0;  // what is left to the body when particle k - 1 has gone its way
-    bool isBuried = lane == 0 && !kFalls;  // what falls has no root that may be in a body
+    float roomBefore = 0.0;  // distance left to the body after particle k - 1 has moved
+    bool isBuried = lane == 0 && !kFalls;  // fallen hair has no root that may be in a body
     vec3 placeBefore = vec3(0);
     uint part = 0;
     do {
-      int before = int(part) * kPart - 1;  // bit 0's edge ends at bit 0's particle
+      int before = int(part) * kPart - 1;  // the edge of bit 0 ends at the particle of bit 0
       uint particleBits = 0;
       uint edgeBits = 0;
       [[dont_unroll]] do {
@@ -248,7 +252,8 @@ vec3 slidingVelocity(int k) {
   return relative - dot(pushNormal[k].xyz, relative) * pushNormal[k].xyz;
 }
 
-// Friction's weights, from what the pushes came to at the velocities solved without it.
+// Adds the weights of friction, from the normal momentum of the pushes at the velocities solved without
+// friction.
 void addFriction() {
   RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     vec3 n = pushNormal[k].xyz;
@@ -258,7 +263,7 @@ void addFriction() {
   }
 }
 
-// And what is left of it, at the velocities solved with it.
+// Applies what is left of friction at the velocities solved with it.
 void rubRun() {
   RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     vec3 slowed = rubbed(v[k], slidingVelocity(k), rubbing[k], normalMomentum(k), pushBody[k].w, restEdge[k].x);
@@ -307,14 +312,15 @@ void keepParticlesOut(uint step, Room room, bool isDone) {
   } while (b < numbers.bodyCount);
 }
 
-// Of two ways the one that is further, with its change of velocity.
+// Keeps the larger of two displacements, with its change of velocity.
 void furtherOf(inout vec3 shift, inout vec3 change, vec3 wanted, vec3 wantedChange) {
   if (dot(wanted, wanted) <= dot(shift, shift)) return;
   shift = wanted;
   change = wantedChange;
 }
 
-// Edges leave at kLeaveSpeed at most; of two edges the one that moves a particle further.
+// Pushes edges out of bodies, at kLeaveSpeed at most. If two edges move a particle, the larger displacement
+// counts.
 void keepEdgesOut(uint step, Room room, bool isDone) {
   float T = stepSeconds();
   vec3 pNext = fromTipward(p[0], 1);
@@ -383,7 +389,7 @@ void keepEdgesOut(uint step, Room room, bool isDone) {
   }
 }
 
-// isDone: nothing is asked of the strand.
+// isDone: the strand needs nothing.
 void keepRunOut(uint step, bool isDone) {
   Room room = emptyRoom();
   RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {

@@ -1,4 +1,4 @@
-// Fields that act on this lane's particles. Included by bodies/run_pulls.glsl.
+// Force fields on the particles of this lane's run. Included by bodies/run_pulls.glsl.
 #ifndef RINGLET_RUN_FIELDS
 #define RINGLET_RUN_FIELDS
 
@@ -8,7 +8,7 @@
 #include "shared/field_buffers.glsl"
 #include "shared/strand_run.glsl"
 
-// Trilinear between nodes; nothing outside them.
+// The grid's value, trilinear between nodes; 0 outside the grid.
 vec3 fieldGrid(StepField field, vec3 x) {
   vec3 g = rotate(conjugate(field.rotation), x - field.place) / field.cell;
   uvec3 nodes = uvec3(field.nodes[0], field.nodes[1], field.nodes[2]);
@@ -26,7 +26,7 @@ vec3 fieldGrid(StepField field, vec3 x) {
   return outside ? vec3(0) : rotate(field.rotation, field.gridShare * sum);
 }
 
-// From positions at the step's start.
+// Uses positions at the step's start.
 void feelFields(uint step) {
   uint f = 0;
   if (numbers.fieldCount > 0) do {

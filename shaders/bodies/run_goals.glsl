@@ -1,4 +1,4 @@
-// Goals of this lane's particles, or of its edges. Included by bodies/run_pulls.glsl.
+// Goals of the particles of this lane's run, or of its edges. Included by bodies/run_pulls.glsl.
 #ifndef RINGLET_RUN_GOALS
 #define RINGLET_RUN_GOALS
 
@@ -7,8 +7,8 @@
 #include "maths/quaternion.glsl"
 #include "shared/strand_run.glsl"
 
-// Of edges: what is pulled is how the edge lies, with the mass of its particle. From edges at the step's start; the
-// pull is added to their forces.
+// Goals of edges: they pull on the edge's vector, with the mass of its particle. Uses edges at the step's
+// start; the pull is added to their forces.
 void feelGoalShape(uint step) {
   float shareBefore = float(step) / float(numbers.stepCount);
   float shareAfter = float(step + 1) / float(numbers.stepCount);
@@ -30,7 +30,8 @@ void feelGoalShape(uint step) {
   }
 }
 
-// From positions at the step's start. Places are the groom's, carried as its roots are.
+// Goals of particles. Uses positions at the step's start; places are in the groom's axes and carried as its
+// roots are.
 void feelGoals(uint step) {
   float shareBefore = float(step) / float(numbers.stepCount);
   float shareAfter = float(step + 1) / float(numbers.stepCount);

@@ -1,4 +1,4 @@
-// What pulls on the run's particles beside gravity, implicit in their velocity systems: goals, and fields. Included by
+// Goals and fields, which are implicit in the velocity systems of the run's particles. Included by
 // kernels/strand_step.comp and its integrators.
 #ifndef RINGLET_RUN_PULLS
 #define RINGLET_RUN_PULLS

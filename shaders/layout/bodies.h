@@ -1,4 +1,4 @@
-// What hair stays out of, and the air it moves in: structs, binding numbers.
+// Bodies that hair collides with, and the air: structs, binding numbers.
 #ifndef RINGLET_LAYOUT_BODIES
 #define RINGLET_LAYOUT_BODIES
 
@@ -8,7 +8,7 @@
 namespace ringlet::layout {
 #endif
 
-// Bindings, of the strand_step kernels and of others that know bodies, set 0.
+// Bindings in set 0, of strand_step and of other kernels that use bodies.
 RINGLET_CONSTANT uint kBindBodies = 15;      // BodyRest[bodies]
 RINGLET_CONSTANT uint kBindBodyPoses = 16;   // BodyPose[steps + 1][bodies]
 RINGLET_CONSTANT uint kBindGridCells = 17;   // uvec4[cells]: the distances of a cell's corners, see gridDistance
@@ -20,13 +20,13 @@ RINGLET_CONSTANT uint kBindGridCellTexels = 22;
 RINGLET_CONSTANT uint kBindAirTexels = 23;       // 4 a step
 RINGLET_CONSTANT uint kBindWindModeTexels = 24;  // 2 a mode
 
-RINGLET_CONSTANT uint kWindWaves = 12;   // modes of the turbulent wind: a multiple of 4
+RINGLET_CONSTANT uint kWindWaves = 12;   // modes of the turbulent wind; a multiple of 4
 
-// A body, constant. Boxes, spheres and capsules are boxes with rounded edges.
+// A body; constant. Spheres and capsules are boxes with rounded edges too.
 struct BodyRest {
-  vec3 halfExtents;  // of the box within [m]
-  float rounding;    // of the box, or what hair keeps away from a plane or grid [m]
-  vec4 bounds;       // a sphere about it: xyz: middle, its own axes [m]; w: radius [m]
+  vec3 halfExtents;  // of the inner box [m]
+  float rounding;    // of the box, or the distance that hair keeps from a plane or grid [m]
+  vec4 bounds;       // bounding sphere: xyz: centre, in the body's own axes [m]; w: radius [m]
   vec3 gridOrigin;   // [m]
   float cell;        // of the grid [m]
   uint cells[3];     // of the grid
@@ -39,13 +39,13 @@ RINGLET_CONSTANT uint kShapeBox = 0;
 RINGLET_CONSTANT uint kShapePlane = 1;
 RINGLET_CONSTANT uint kShapeGrid = 2;
 
-// Where a body is, relative to the head's origin, along world axes. Pose 0 is the frame's start, 1 + k the end of step
-// k.
+// The pose of a body, relative to the head's origin, along world axes. Pose 0 is the frame's start, 1 + k the
+// end of step k.
 struct BodyPose {
   vec3 position;  // [m]
-  float moves;    // how far any of it does in the step that ends here [m]
+  float moves;    // largest distance by which a point of it moves in the step that ends here [m]
   vec4 rotation;  // quaternion (x, y, z, w)
-  vec4 turn;      // from the pose before to this
+  vec4 turn;      // rotation from the pose before to this one
   vec4 velocity;  // xyz: of its origin in that step, relative to the head's translation [m/s]
 };
 

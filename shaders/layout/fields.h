@@ -1,4 +1,4 @@
-// Fields of force and of moving air: structs, binding numbers.
+// Force fields, and fields of moving air: structs, binding numbers.
 #ifndef RINGLET_LAYOUT_FIELDS
 #define RINGLET_LAYOUT_FIELDS
 
@@ -14,20 +14,20 @@ RINGLET_CONSTANT uint kBindFieldNodes = 36;    // vec4[nodes]: xyz: velocity of 
 RINGLET_CONSTANT uint kBindFieldTexels = 37;   // 7 a field
 RINGLET_CONSTANT uint kBindFieldNodeTexels = 38;
 
-// A field in a step, along world axes, relative to the head's origin when the step begins. See
+// A field in a step, along world axes, relative to the head's origin at the step's start. See
 // equations/force_field.glsl. Strengths are accelerations [m/s^2] or, with drag, velocities of the air [m/s].
 struct StepField {
   vec3 place;       // [m]
   float axial;      // along the axis
-  vec3 axis;        // of length 1
+  vec3 axis;        // unit vector
   float radial;     // away from the place, or from the axis
   vec3 still;       // velocity of air at rest, relative to the head's translation [m/s]
   float around;     // about the axis
   float aboutAxis;  // 1: distances are from the axis; 0: from the place
-  float core;       // within which radial and around fade to nothing [m]
-  float perReach;   // 1 / the distance at which the field ends [1/m]; 0: it does not
+  float core;       // closer than this, radial and around fade to 0 [m]
+  float perReach;   // 1 / the distance at which the field ends [1/m]; 0: it has no end
   float drag;       // [1/s]
-  float front;      // distance of a shell, outside of which nothing is [m]
+  float front;      // radius of a shell outside of which the field is 0 [m]
   float perThickness;  // 1 / half of the shell's thickness [1/m]; 0: there is no shell
   float gridShare;     // factor on the grid's velocities
   float cell;          // of the grid [m]; its node 0 is at the place

@@ -9,75 +9,78 @@
 namespace ringlet::layout {
 #endif
 
-// Bindings of the follow_* kernels: hairs that follow guides (equations/follow.glsl). Bodies have those of bodies.h,
-// with one pose each.
-RINGLET_CONSTANT uint kBindGuidePoints = 0;   // vec4[guide particles]: position [m], -1 where the strand is cut
-                                              // beyond it, else 0
+// Bindings of the follow_* kernels: hairs that follow guides (equations/follow.glsl). Bodies have the
+// bindings of bodies.h, with one pose each.
+RINGLET_CONSTANT uint kBindGuidePoints = 0;   // vec4[guide particles]: position [m], -1 if the strand is cut
+                                              // after it, else 0
 RINGLET_CONSTANT uint kBindCoreRows = 1;      // CoreRow[guide particles]
 RINGLET_CONSTANT uint kBindCoreWeights = 2;   // vec4[records of four weights]
-RINGLET_CONSTANT uint kBindCores = 3;         // vec4[guide particles]: the guide's core there [m], 0
+RINGLET_CONSTANT uint kBindCores = 3;         // vec4[guide particles]: core of the guide [m], 0
 RINGLET_CONSTANT uint kBindFollowGuides = 4;  // FollowGuide[guides]
 RINGLET_CONSTANT uint kBindCoreFrames = 5;    // vec4[guide particles]: quaternion
-RINGLET_CONSTANT uint kBindCurls = 6;         // vec4[guide particles]: from the core, along its frame [m], 0
+RINGLET_CONSTANT uint kBindCurls = 6;         // vec4[guide particles]: offset of the guide from its core,
+                                              // along the core's frame [m], 0
 RINGLET_CONSTANT uint kBindFollowHairs = 7;   // FollowHair[hairs]
 RINGLET_CONSTANT uint kBindHairPoints = 8;    // uvec4[points of hairs]: hair_points.h
-RINGLET_CONSTANT uint kBindBodySpheres = 9;   // vec4[bodies]: xyz: middle of a sphere about it [m]; w: radius [m]
+RINGLET_CONSTANT uint kBindBodySpheres = 9;   // vec4[bodies]: bounding sphere: xyz: centre [m]; w: radius [m]
 RINGLET_CONSTANT uint kBindNearCount = 10;    // NearCount
-RINGLET_CONSTANT uint kBindNearPoints = 11;   // uint[points near bodies]: the invocation of follow_hairs that found it
-RINGLET_CONSTANT uint kBindFollowBlends = 12; // FollowBlend[hairs], where hairs follow several guides
-// Whether roots are where FollowHair::rootOffset says, on a scalp that bends, and not where the head carries them.
+RINGLET_CONSTANT uint kBindNearPoints = 11;   // uint[points near bodies]: index of the invocation of
+                                              // follow_hairs
+RINGLET_CONSTANT uint kBindFollowBlends = 12; // FollowBlend[hairs], if hairs follow several guides
+// True: roots are at FollowHair::rootOffset, on a deforming scalp; false: the head carries them.
 RINGLET_CONSTANT uint kSpecOnScalp = 2;
-RINGLET_CONSTANT uint kSpecCutGuides = 3;  // some guide is cut at some time
-// The same as texels, these numbers further:
+RINGLET_CONSTANT uint kSpecCutGuides = 3;  // guides may be cut
+// The same as texels, with these added to the binding numbers:
 RINGLET_CONSTANT uint kFollowTexels = 40;
 
-// Constant per guide particle: its core is a weighted sum of particles about it.
+// Constant for each guide particle: the weights by which its core is a sum of neighbouring particles.
 struct CoreRow {
-  uint firstParticle;  // of the sum
-  uint firstRecord;    // of its weights, four to a record; those past the sum's end are 0
+  uint firstParticle;  // first particle of the sum
+  uint firstRecord;    // first record of its weights, four in each; weights beyond the sum's end are 0
   uint recordCount;
-  uint beginsPiece;  // 1: it is the first of a piece that is cut off at some time
+  uint beginsPiece;  // 1: the first particle of a piece that may be cut off
 };
 
-// Constant per guide.
+// Constant for each guide.
 struct FollowGuide {
-  vec4 restFrame;  // quaternion: from the core's frame at the root, as it was groomed, to the groom's axes
+  vec4 restFrame;  // quaternion: from the core's frame at the root, in the rest pose, to the groom's axes
   uint firstParticle;
   uint particleCount;
   uint unused[2];
 };
 
-// Constant per hair: where it stands beside its guide, and how it differs.
+// Constant for each hair: its place beside its guide, and its differences from it.
 struct FollowHair {
   vec3 offset;  // of its root from the guide's, along the guide's restFrame [m]
   uint guide;
-  float phase;   // by which the curl is turned about its core [rad]
-  float radius;  // of the curl, over the guide's
-  float lengthShare;  // of the guide that it follows
-  float spread;  // what becomes of the offset beyond the root
+  float phase;   // angle by which the curl is turned about its core [rad]
+  float radius;  // of the curl, relative to the guide's
+  float lengthShare;  // length relative to the guide's
+  float spread;  // factor on the offset beyond the root
   uint firstPoint;
-  float rootOffset[3];  // with kSpecOnScalp: in this pose from the guide's root to the hair's [m]
+  float rootOffset[3];  // with kSpecOnScalp: from the guide's root to the hair's, in this pose [m]
 };
 
-// Constant per hair that follows several guides: those beside its own. Nothing of a guide whose share is 0.
+// Constant for each hair that follows several guides: the guides besides its own. A guide with share 0 is
+// unused.
 struct FollowBlend {
   vec4 offsets[2]; // xyz: of the hair's root from that guide's, along the guide's restFrame [m]; w: share of the core
   uint guides[2];
   uint unused[2];
 };
 
-// Points of hairs near bodies, as groups of invocations and as a number.
+// The points of hairs near bodies: their number, also as workgroups.
 struct NearCount {
   uint indirect[3];
   uint points;
 };
 
 struct FollowParameters {
-  vec4 head;      // quaternion: how the head has turned since the rest pose
-  uint count;     // of what the kernel has an invocation for
-  uint stride;    // invocations a hair: the most particles of any guide
+  vec4 head;      // quaternion: rotation of the head relative to the rest pose
+  uint count;     // number of invocations that have work
+  uint stride;    // invocations for each hair: the most particles of a guide
   uint particles; // of all guides
-  uint bodyCount; // that hairs stay out of
+  uint bodyCount; // number of bodies that hairs are kept out of
 };
 
 #ifdef __cplusplus

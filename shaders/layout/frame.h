@@ -1,4 +1,4 @@
-// The positions at a frame's end, as the host gets them: binding numbers, push constants.
+// The positions at a frame's end, as they are copied to the host: binding numbers, push constants.
 #ifndef RINGLET_LAYOUT_FRAME
 #define RINGLET_LAYOUT_FRAME
 
@@ -10,10 +10,11 @@ namespace ringlet::layout {
 
 // Bindings of frame_positions.comp, in set 0.
 RINGLET_CONSTANT uint kBindFramePositions = 0;  // vec4[particles of a chunk]
-RINGLET_CONSTANT uint kBindFramePlaces = 1;     // uint[particles of a chunk]: where each stands in a frame; kNoPlace
-RINGLET_CONSTANT uint kBindFrameOut = 2;        // float[3 x (end - begin)], in the host's memory
+RINGLET_CONSTANT uint kBindFramePlaces = 1;     // uint[particles of a chunk]: place of each in the frame, or
+                                                // kNoPlace
+RINGLET_CONSTANT uint kBindFrameOut = 2;        // float[3 x (end - begin)], in host memory
 
-RINGLET_CONSTANT uint kNoPlace = 0xffffffffu;  // of a particle that another device steps
+RINGLET_CONSTANT uint kNoPlace = 0xffffffffu;  // place of a particle that another device steps
 
 struct FrameParameters {
   uint count;  // particles of the chunk

@@ -9,7 +9,7 @@
 namespace ringlet::layout {
 #endif
 
-// The tag is the number of the hair, with this bit where no edge goes on: in its last point, and before a cut.
+// The tag is the index of the hair. This bit is set if no edge follows: at its last point, and before a cut.
 RINGLET_CONSTANT uint kHairEnd = 0x80000000u;
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-// The rows that parts of divided hair send each other: binding numbers, push constants.
+// The rows that parts of divided hair exchange: binding numbers, push constants.
 #ifndef RINGLET_LAYOUT_PARTS
 #define RINGLET_LAYOUT_PARTS
 
@@ -13,15 +13,15 @@ RINGLET_CONSTANT uint kBindPartPositions = 0;   // vec4[particles]
 RINGLET_CONSTANT uint kBindPartVelocities = 1;  // vec4[particles]
 RINGLET_CONSTANT uint kBindPartSolved = 2;      // vec4[particles]
 RINGLET_CONSTANT uint kBindPartParticles = 3;   // uint: the contact particles of the rows, peer by peer
-RINGLET_CONSTANT uint kBindPartRows = 4;        // float: as many as follow, of each of them
+RINGLET_CONSTANT uint kBindPartRows = 4;        // float: the rows, each with the number of floats below
 
-// Of a row at a step's start: position, velocity, v^0; of one after a solve: v^k.
+// A row at a step's start: position, velocity, v^0; a row after a solve: v^k.
 RINGLET_CONSTANT uint kFloatsOfStepRow = 9;
 RINGLET_CONSTANT uint kFloatsOfSolveRow = 3;
 
 struct PartParameters {
   uint count;   // rows
-  uint isStep;  // 1: of a step's start; 0: of a solve
+  uint isStep;  // 1: rows at a step's start; 0: rows after a solve
 };
 
 #ifdef __cplusplus

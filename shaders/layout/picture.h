@@ -9,73 +9,81 @@
 namespace ringlet::layout {
 #endif
 
-// Bindings of the render_* kernels: pictures of hair and bodies, without a graphics pipeline.
+// Bindings of the render_* kernels: they draw pictures of hair and bodies without a graphics pipeline.
 RINGLET_CONSTANT uint kBindPicture = 0;       // uniform: Picture
 RINGLET_CONSTANT uint kBindDrawnPoints = 1;   // uvec4[points]: hair_points.h
 RINGLET_CONSTANT uint kBindDrawnHairs = 2;    // DrawnHair[hairs]
-RINGLET_CONSTANT uint kBindShadows = 3;       // uint[2][slices][cells][cells]: hair before each light
-RINGLET_CONSTANT uint kBindDensity = 4;       // uint[cells^3]: hair about each place
-RINGLET_CONSTANT uint kBindOpenness = 5;      // float[cells^3]: share of the sky that is seen from there
-RINGLET_CONSTANT uint kBindSamples = 6;       // uvec2[samples]: what is seen and its nearness; then its colour
-RINGLET_CONSTANT uint kBindSeen = 7;          // uint[samples]: those in which hair is seen
+RINGLET_CONSTANT uint kBindShadows = 3;       // uint[2][slices][cells][cells]: hair between each light and a
+                                              // cell
+RINGLET_CONSTANT uint kBindDensity = 4;       // uint[cells^3]: hair in each cell
+RINGLET_CONSTANT uint kBindOpenness = 5;      // float[cells^3]: share of the sky that is visible from each
+                                              // cell
+RINGLET_CONSTANT uint kBindSamples = 6;       // uvec2[samples]: what is visible, and its nearness; later its
+                                              // colour
+RINGLET_CONSTANT uint kBindSeen = 7;          // uint[samples]: samples in which hair is visible
 RINGLET_CONSTANT uint kBindSeenCounts = 8;    // SeenCounts
 RINGLET_CONSTANT uint kBindSolidPoints = 9;   // SolidPoint[points of bodies, then patches]
 RINGLET_CONSTANT uint kBindSolidTriangles = 10;  // SolidTriangle[triangles of bodies]
-RINGLET_CONSTANT uint kBindSeenSolids = 11;   // uvec2[pixels]: those in which bodies are seen << 4 |
-                                              // a sample there, and the triangle
-RINGLET_CONSTANT uint kBindSolidColours = 12; // uvec2[pixels]: their colour, and the share that it covers, in halves
-RINGLET_CONSTANT uint kBindPixels = 13;       // vec4[pixels]: sum of pictures, linear; w: their number
-RINGLET_CONSTANT uint kBindShown = 14;        // uint[pixels]: red, green, blue, 255, as they are shown
-RINGLET_CONSTANT uint kBindLight = 15;        // vec4[pixels]: their light, linear; 1
+RINGLET_CONSTANT uint kBindSeenSolids = 11;   // uvec2[pixels]: pixels in which bodies are visible << 4 | a
+                                              // sample there, and the triangle
+RINGLET_CONSTANT uint kBindSolidColours = 12; // uvec2[pixels]: colour of bodies, and the share that they
+                                              // cover, as halves
+RINGLET_CONSTANT uint kBindPixels = 13;       // vec4[pixels]: sum of pictures, linear; w: number of pictures
+RINGLET_CONSTANT uint kBindShown = 14;        // uint[pixels]: red, green, blue, 255, as displayed
+RINGLET_CONSTANT uint kBindLight = 15;        // vec4[pixels]: linear light; 1
 RINGLET_CONSTANT uint kRenderBindingCount = 16;
-// Those read as texels, these numbers further:
+// Those read as texels, with these added to the binding numbers:
 RINGLET_CONSTANT uint kRenderTexels = 20;
 
-RINGLET_CONSTANT uint kSpecPass = 2;     // of render_hairs and render_solids without 64-bit atomics: 0 nearness, 1 what
-RINGLET_CONSTANT uint kSolid = 0x80000000u;  // what is seen is a triangle of a body
-RINGLET_CONSTANT uint kShadedHair = 0x80000000u;  // of a sample's second word: it holds a colour, no nearness
+RINGLET_CONSTANT uint kSpecPass = 2;     // render_hairs and render_solids without 64-bit atomics: 0:
+                                         // nearness, 1: what is visible
+RINGLET_CONSTANT uint kSolid = 0x80000000u;  // a triangle of a body is visible
+RINGLET_CONSTANT uint kShadedHair = 0x80000000u;  // bit of a sample's second word: the word is a colour and
+                                                  // not a nearness
 
-RINGLET_CONSTANT uint kSolidRows = 64;  // of samples, that an invocation of render_solids has
+RINGLET_CONSTANT uint kSolidRows = 64;  // rows of samples for each invocation of render_solids
 
 RINGLET_CONSTANT uint kMostPigments = 8;
 
-// Of a picture and its camera.
+// A picture and its camera.
 struct Picture {
   vec4 view[3];            // rows: from the world to the camera's right, up and forward axes [m]
   vec4 eye;                // [m], 0
-  vec4 lightAxes[6];       // rows, three a light: from the world to the light's box, each of x, y and depth in [0, 1]
-  vec4 lightDirection[2];  // towards it, 0
+  vec4 lightAxes[6];       // rows, three for each light: from the world to the light's box, with x, y and
+                           // depth in [0, 1]
+  vec4 lightDirection[2];  // towards the light, 0
   vec4 lightColour[2];     // irradiance, 0
   vec4 skyAbove;           // radiance, 0
   vec4 skyBelow;
   vec4 densityBox;         // lower corner [m], cell [m]
-  vec4 pigments[kMostPigments];  // absorption over a fibre's radius: hairs are between two neighbours; 0
-  vec4 solidColour;        // reflected share, 0
-  vec4 groundColour;       // likewise
-  vec4 backColours[2];     // radiance behind all: in the middle, at the edge; 0
+  vec4 pigments[kMostPigments];  // absorption over a fibre's radius, 0; hairs interpolate between two
+                                 // neighbours
+  vec4 solidColour;        // reflectance, 0
+  vec4 groundColour;       // reflectance, 0
+  vec4 backColours[2];     // radiance of the background: in the middle, at the edge; 0
   uint width;
   uint height;
-  uint side;               // samples along a pixel's side
+  uint side;               // samples along a side of a pixel
   uint hairCount;
-  uint pointsPerHair;      // the most of any hair
+  uint pointsPerHair;      // the largest number of a hair
   uint pointCount;
   uint triangleCount;
-  uint shadowCells;        // across a light's box
-  uint shadowSlices;       // along it
-  uint densityCells;       // along each side of the density's box
-  uint shadowStride;       // every so many hairs count, for as many
-  float focus;             // pixels a metre one metre away
-  float near;              // what is nearer is left out [m]
+  uint shadowCells;        // cells across a light's box
+  uint shadowSlices;       // slices along a light's box
+  uint densityCells;       // cells along each side of the density's box
+  uint shadowStride;       // only one hair in this many is counted, with this weight
+  float focus;             // size in pixels of one metre at a distance of one metre
+  float near;              // nearest distance that is drawn [m]
   float shadowCellArea;    // [m^2]
-  float fixedPoint;        // units a square metre of hair
-  float shadowOpacity;     // share of light that a hair keeps from what is behind it
-  float along;             // HairFibre
+  float fixedPoint;        // integer units for a square metre of hair
+  float shadowOpacity;     // share of light that a hair blocks
+  float along;             // along, about and tilt: see HairFibre
   float about;
   float tilt;
   float exposure;
-  float tipRadius;         // share of a hair's radius that is left at its tip
-  float throughHair;       // brightness of light that came through other hairs
-  uint pigmentCount;       // of pigments, at least 2
+  float tipRadius;         // radius at the tip, relative to the root
+  float throughHair;       // factor on light that passed through other hairs
+  uint pigmentCount;       // number of pigments used, at least 2
 };
 
 // Constant per hair.
@@ -83,12 +91,12 @@ struct DrawnHair {
   uint firstPoint;
   uint pointCount;
   float radius;   // at the root [m]
-  float pigment;  // place among the picture's pigments: 0 the first, 1 the last
+  float pigment;  // index between the picture's pigments, fractional: 0 the first, 1 the last
 };
 
 struct SolidPoint {
   vec4 position;  // [m]; w: of a patch, its area [m^2]; of a point, 1 on the ground and 0 on bodies
-  vec4 normal;    // w: of a point, the share of what is behind it that is seen
+  vec4 normal;    // w: of a point, the share of the background that shines through
 };
 
 struct SolidTriangle {
@@ -96,7 +104,7 @@ struct SolidTriangle {
   uint unused;
 };
 
-// What is seen of hair and of bodies, as groups of invocations and as numbers.
+// Numbers of samples and pixels in which hair and bodies are visible, also as workgroups.
 struct SeenCounts {
   uint indirectHairs[3];
   uint hairs;
@@ -104,27 +112,29 @@ struct SeenCounts {
   uint solids;
 };
 
-// A part of a picture: whole rows of pixels.
+// A part of a picture: complete rows of pixels.
 struct PictureBand {
   uint firstRow;
   uint rowCount;
 };
 
-// Bindings of render_stretch: hairs take the colour of how far their strand is stretched.
-RINGLET_CONSTANT uint kBindStretchPoints = 0;   // uvec4[points of strands]: position's bits, anything
-RINGLET_CONSTANT uint kBindStretchLengths = 1;  // float[points of strands]: of the edge that begins there, at rest [m]
+// Bindings of render_stretch: the stretch of a strand gives the colour of its hairs.
+RINGLET_CONSTANT uint kBindStretchPoints = 0;   // uvec4[points of strands]: bits of the position, an unused
+                                                // number
+RINGLET_CONSTANT uint kBindStretchLengths = 1;  // float[points of strands]: rest length of the edge that
+                                                // begins there [m]
 RINGLET_CONSTANT uint kBindStretchStrands = 2;  // StretchStrand[hairs]
 RINGLET_CONSTANT uint kBindStretchHairs = 3;    // DrawnHair[hairs]
 
-// Constant per hair: the strand that it is, or follows.
+// For each hair the strand that it is or follows.
 struct StretchStrand {
   uint firstPoint;
   uint pointCount;
 };
 
 struct StretchParameters {
-  uint count;  // of hairs
-  float most;  // share of its length by which an edge of the second pigment is longer
+  uint count;  // number of hairs
+  float most;  // elongation of an edge, relative to its length, that gives the second pigment
 };
 
 #ifdef __cplusplus

@@ -8,29 +8,30 @@
 namespace ringlet::layout {
 #endif
 
-// Bindings of the pose_* kernels: where simulated hair is, for what follows or draws it on the same device.
-RINGLET_CONSTANT uint kBindPosePositions = 0;  // vec4[particles]: position [m], 0; as the solver has them
+// Bindings of the pose_* kernels: they pass on positions of simulated hair to whatever follows or draws it on
+// the same device.
+RINGLET_CONSTANT uint kBindPosePositions = 0;  // vec4[particles]: position [m], 0; in the solver's order
 RINGLET_CONSTANT uint kBindPosePlaces = 1;     // PosePlace[particles]
-RINGLET_CONSTANT uint kBindPosePoints = 2;     // uvec4[points]: position's bits, PosePlace::tag
+RINGLET_CONSTANT uint kBindPosePoints = 2;     // uvec4[points]: bits of the position, PosePlace::tag
 RINGLET_CONSTANT uint kBindPoseBounds = 3;     // PoseBounds
 RINGLET_CONSTANT uint kPoseBindingCount = 4;
-// The positions as texels, this much further:
+// The positions as texels, with this added to the binding number:
 RINGLET_CONSTANT uint kPoseTexels = 10;
 
 // Constant per particle.
 struct PosePlace {
-  uint point;  // where it goes
-  uint tag;    // what stands behind its position there
+  uint point;  // index of its point
+  uint tag;    // fourth word of its point
 };
 
 struct PoseParameters {
-  vec4 turn;  // quaternion: of particles that the head carries
+  vec4 turn;  // quaternion: applied to particles
   uint count;
   uint isTurned;
 };
 
-// The highest of all points along x, y, z, then how low the lowest are; as ordered bits (pose_bounds.comp), so that
-// 0 is below all.
+// The largest x, y and z of all points, then the largest -x, -y and -z, as ordered bits (pose_bounds.comp),
+// so that 0 is below all.
 struct PoseBounds {
   uint high[3];
   uint low[3];

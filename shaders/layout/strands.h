@@ -9,7 +9,7 @@
 namespace ringlet::layout {
 #endif
 
-// Specialization constants of the strand kernels, whose shaders say what each means.
+// Specialization constants of the strand kernels; shared/strand_buffers.glsl says what each means.
 RINGLET_CONSTANT uint kSpecLanes = 2;
 RINGLET_CONSTANT uint kSpecRun = 3;
 RINGLET_CONSTANT uint kSpecIntegrator = 4;
@@ -33,13 +33,13 @@ RINGLET_CONSTANT uint kSpecProfiles = 20;
 // Bindings of the strand_step kernels, all in set 0.
 RINGLET_CONSTANT uint kBindPositions = 0;   // vec4[particles]: position relative to the head [m], 0
 RINGLET_CONSTANT uint kBindVelocities = 1;  // vec4[particles]: velocity relative to the head's translation [m/s], 0
-RINGLET_CONSTANT uint kBindParticles = 2;   // ParticleRest[particles]; of a material with profiles, then as many again,
-                                            // which hold EdgeFactors (rest/edge_factors.h)
+RINGLET_CONSTANT uint kBindParticles = 2;   // ParticleRest[particles]; of a material with profiles followed
+                                            // by as many EdgeFactors (rest/edge_factors.h)
 RINGLET_CONSTANT uint kBindStrands = 3;     // StrandRest[strands]
 RINGLET_CONSTANT uint kBindReports = 4;     // StrandReport[strands]
 RINGLET_CONSTANT uint kBindTaps = 5;        // vec4[field][particles]
 RINGLET_CONSTANT uint kBindPoses = 6;       // uniform: StepPose[kMaxStepPoses]
-// And of those that solve with contacts:
+// Bindings of kernels that solve with contacts:
 RINGLET_CONSTANT uint kBindSolved = 7;          // vec4[particles]: the solve's last iterate v^k [m/s], 0
 RINGLET_CONSTANT uint kBindContactSystems = 8;  // ContactSystem[particles]
 RINGLET_CONSTANT uint kBindContactControl = 9;  // ContactControl
@@ -49,25 +49,28 @@ RINGLET_CONSTANT uint kBindVelocityTexels = 11;
 RINGLET_CONSTANT uint kBindParticleTexels = 12;  // 2 a particle
 RINGLET_CONSTANT uint kBindStrandTexels = 13;    // 7 a strand
 RINGLET_CONSTANT uint kBindContactSystemTexels = 14;  // 3 a particle
-// Where roots are that move beside the head, each strand's its own way:
+// Root poses, if strands have some:
 RINGLET_CONSTANT uint kBindRootPoses = 25;       // RootPose[steps + 1][strands]
 RINGLET_CONSTANT uint kBindRootPoseTexels = 26;  // 4 a pose
-// And what hair as a volume adds to a particle's velocity system, in the strand's mass units:
+// The terms that a volume adds to a particle's velocity system, in the strand's mass units:
 RINGLET_CONSTANT uint kBindAddedByVolume = 27;   // vec4[particles]: xyz: to the right-hand side [mass unit m/s]; w: to
                                                  // the mass, g [mass unit]
 RINGLET_CONSTANT uint kBindAddedByVolumeTexels = 28;
-// And forces from outside:
-RINGLET_CONSTANT uint kBindOutsideForces = 29;   // vec4[particles]: xyz: on each kilogram of the particle [m/s^2], 0
+// External forces:
+RINGLET_CONSTANT uint kBindOutsideForces = 29;   // vec4[particles]: xyz: acceleration of the particle
+                                                 // [m/s^2], 0
 RINGLET_CONSTANT uint kBindOutsideForceTexels = 30;
-// And places that particles are pulled to, in the groom's axes, carried as roots are:
-RINGLET_CONSTANT uint kBindGoalsBefore = 31;     // vec4[particles]: xyz: at the frame's start [m]; w: damping c [1/s]
-RINGLET_CONSTANT uint kBindGoals = 32;           // vec4[particles]: xyz: at its end [m]; w: stiffness k [1/s^2]
+// Goals, in the groom's axes, carried as roots are:
+RINGLET_CONSTANT uint kBindGoalsBefore = 31;     // vec4[particles]: xyz: place at the frame's start [m]; w:
+                                                 // damping c [1/s]
+RINGLET_CONSTANT uint kBindGoals = 32;           // vec4[particles]: xyz: place at the frame's end [m]; w:
+                                                 // stiffness k [1/s^2]
 RINGLET_CONSTANT uint kBindGoalBeforeTexels = 33;
 RINGLET_CONSTANT uint kBindGoalTexels = 34;
-// And the poses of many heads, in place of one's:
+// The poses of many heads, in place of those of one:
 RINGLET_CONSTANT uint kBindHeadPoseTexels = 40;  // StepPose[heads][headPoses]: 3 a pose
 
-// And what does not change within a frame:
+// Numbers that do not change within a frame:
 RINGLET_CONSTANT uint kBindNumbers = 41;  // uniform: HairNumbers
 
 // Integrators (kSpecIntegrator).
@@ -79,12 +82,13 @@ RINGLET_CONSTANT uint kIntegratorPaper = 2;
 RINGLET_CONSTANT uint kMaxStepPoses = 341;
 RINGLET_CONSTANT uint kMaxRootCount = 3;
 
-// With contacts a step is several dispatches: the solve without contacts, then iterations with them, the last of which
-// moves. What the dispatch's solve of step stepBegin is:
-RINGLET_CONSTANT uint kPhaseMove = 1;      // the last: the strand moves, and goes on to the next step's first
-RINGLET_CONSTANT uint kPhaseContacts = 2;  // an iteration with the contacts' systems
+// With contacts a step is several dispatches: the solve without contacts, then iterations with contacts; the
+// last one moves the strand. The phases of a dispatch describe its solve of step stepBegin:
+RINGLET_CONSTANT uint kPhaseMove = 1;      // the last one: the strand moves, and the next step's first solve
+                                           // follows
+RINGLET_CONSTANT uint kPhaseContacts = 2;  // an iteration with contacts
 
-// Fields the kernels write when compiled with RINGLET_TAPS, each vec4[particles]; an edge's fields stand at its
+// Fields that kernels compiled with RINGLET_TAPS write, each vec4[particles]; the value of edge i is that of
 // particle i.
 RINGLET_CONSTANT uint kTapSmoothedEdge = 0;  // d_i, smoothed with alpha_b [m]
 RINGLET_CONSTANT uint kTapCoreEdge = 1;      // b_i, smoothed with alpha_c [m]
@@ -104,22 +108,22 @@ struct ParticleRest {
   float mass;      // [mass unit]
   float edgeLength;      // the groom's edge [m]: the stretch limit refers to it
   float coreEdgeLength;  // |b_i| at rest [m]
-  float bendFactor;      // of the bend stiffness profile, root to tip; 1 where there is none
+  float bendFactor;      // of the bend stiffness profile, root to tip; 1 without one
 };
 
-// A root: a particle that the head carries.
+// A particle that the head carries.
 struct RootRest {
   vec3 pin;     // its rest position [m]
-  float shift;  // of the strand beside the head, along axis k of its root k [m]
+  float shift;  // root shift of the strand relative to the head, along axis k in root k [m]
 };
 
-// Constant per strand. Stiffnesses K and dampings C [N and N s per mass unit]: divided by the edge's length they are
-// the edge's own. For `paper`, k and c of every edge, as they are.
+// Constant for each strand. Stiffnesses K and dampings C [N and N s per mass unit]: those of an edge are
+// these divided by its length. For `paper` they are k and c of every edge.
 struct StrandRest {
   uint firstParticle;
   uint particleCount;
   float bendBeta;  // smoothing weight 1 - exp(-l / alpha_b)
-  float coreBeta;  // and with alpha_c
+  float coreBeta;  // smoothing weight with alpha_c
   float stretchStiffness;
   float stretchDamping;
   float bendStiffness;
@@ -127,44 +131,44 @@ struct StrandRest {
   float coreStiffness;
   float coreDamping;
   float restCoreLength;  // sum of |b_i| at rest [m]
-  float jacobiGap;       // 1 - mu^2, mu a bound on the spectral radius of the point Jacobi iteration: the gap keeps its
-                         // digits
+  float jacobiGap;       // 1 - mu^2, where mu is a bound on the spectral radius of the point Jacobi
+                         // iteration; stored as this difference to keep its digits
   vec3 firstEdge;        // e_0 at rest [m]
   float massUnit;        // [kg]
   RootRest roots[kMaxRootCount];  // its first particles
 };
 
-// What the numbers did, per strand; the first three and the last since the simulation began.
+// Numerical state of a strand; maxStretch, limitedEdges, degenerateEdges and velocityResidual cover all steps
+// since the simulation began.
 struct StrandReport {
-  float maxStretch;         // longest edge over the groom's edge
-  uint limitedEdges;        // edges x steps the stretch limit touched
+  float maxStretch;         // largest ratio of an edge's length to its length in the groom
+  uint limitedEdges;        // edges x steps that the stretch limit changed
   uint degenerateEdges;     // edges x steps that had no direction
   uint nonfiniteParticles;  // now
   uint firstNonfinite;      // the first of them, counted along the strand
-  float velocityResidual;   // since the simulation began, where measured, of the solve L v = r: see
-                            // velocityResidualShare
+  float velocityResidual;   // of the solve L v = r, if it is measured; see velocityResidualShare
 };
 
 // The head, per outer step. poses[0] is the frame's start, poses[1 + k] the end of step k.
 struct StepPose {
   vec4 rotation;        // quaternion (x, y, z, w)
-  vec4 turn;            // quaternion that takes the pose one step before to this; as the difference of two rotations it
-                        // would have lost its digits
-  vec3 velocityChange;  // how much faster the head travels in this step than in the one before [m/s]
-  float shiftedShare;   // of their shift that shifted roots have gone
+  vec4 turn;            // quaternion from the pose one step before to this one; computed as the difference of
+                        // two rotations it would lose digits
+  vec3 velocityChange;  // velocity of the head in this step minus that in the step before [m/s]
+  float shiftedShare;   // share of their shift by which shifted roots are displaced
 };
 
-// What carries a strand's roots, the head and the strand's own pose in the head's frame together: where it brings the
-// groom's origin, relative to the head's origin, along world axes. Pose 0 is the frame's start, 1 + k the end of step
-// k.
+// The transform that carries a strand's roots: the head's pose combined with the strand's own pose in the
+// head's frame. It gives the place of the groom's origin, relative to the head's origin, along world axes.
+// Pose 0 is the frame's start, 1 + k the end of step k.
 struct RootPose {
   vec4 position;  // xyz [m]
   vec4 rotation;  // quaternion (x, y, z, w)
-  vec4 turn;      // from the pose before to this
+  vec4 turn;      // rotation from the pose before to this one
   vec4 velocity;  // xyz: of the groom's origin in the step that ends here, relative to the head's translation [m/s]
 };
 
-// Push constants: what a dispatch is of.
+// Push constants of a dispatch.
 struct StepParameters {
   uint strandBegin;  // this dispatch's strands, device order
   uint strandEnd;
@@ -173,24 +177,24 @@ struct StepParameters {
   uint phases;         // with contacts: kPhaseMove, kPhaseContacts
   uint particleCount;  // of the chunk: stride of the taps
   uint strandCount;    // of the chunk: stride of the root poses
-  uint headCount;      // of this dispatch, where buffers hold many
-  uint headParticles;  // from one head to the next: particles, strands, poses
+  uint headCount;      // number of heads that the dispatch steps, if buffers hold many
+  uint headParticles;  // distance from one head to the next, in particles, strands and poses
   uint headStrands;
   uint headPoses;
 };
 
 // Settings, material and counts of a frame.
 struct HairNumbers {
-  vec3 gravity;         // [m/s^2], times the material's factor
-  float inertiaFactor;  // of Material
-  vec3 fallGravity;     // of what was cut off [m/s^2]
+  vec3 gravity;         // [m/s^2], times Material::gravityFactor
+  float inertiaFactor;  // Material::inertiaFactor
+  vec3 fallGravity;     // gravity of fallen hair [m/s^2]
   float seconds;        // the outer step T
   float maxStretch;
   float coreRelaxedShare;
   float coreElongationLow;
   float coreElongationHigh;
   float dragStrength;  // g / U^2, U the fall speed [1/m]
-  float dragAlong;     // share of drag that what passes along a strand has
+  float dragAlong;     // drag of motion along a strand, relative to that across it
   uint rootCount;
   uint stepCount;
   uint bodyCount;
