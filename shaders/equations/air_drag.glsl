@@ -1,25 +1,25 @@
-// Drag of the air on a particle, by the cross-flow principle (Hoerner, "Fluid-Dynamic Drag", 1965): what passes across
-// a strand and what passes along it drag by themselves. Quadratic, as wisps of hair are at their Reynolds numbers.
-// Mirrored by reference/equations/air_drag.h.
+// Drag of the air on a particle, by the cross-flow principle (Hoerner, "Fluid-Dynamic Drag", 1965): the flow
+// across a strand and the flow along it drag independently. Quadratic, as for wisps of hair at their Reynolds
+// numbers. Mirrored by reference/equations/air_drag.h.
 //
 //   u = v - w, of the particle relative to the air [m/s];  t: the strand's tangent
 //   u_along = t (t . u),  u_across = u - u_along
 //   a = -(g / U^2) (|u_across| u_across + s |u_along| u_along)       g = 9.81 m/s^2, U: fall speed, s: share along
 //
-// The step is semi-implicit: the two |u| are those of its start. D = T m (a_across (1 - t tᵀ) + a_along t tᵀ) joins the
-// mass block, D w the right-hand side.
+// The step is semi-implicit: both |u| are those at its start. D = T m (a_across (1 - t tᵀ) + a_along t tᵀ) is
+// added to the mass block, D w to the right-hand side.
 #ifndef RINGLET_AIR_DRAG
 #define RINGLET_AIR_DRAG
 
 #include "maths/symmetric.glsl"
 
-/// Shares of its velocity relative to the air that a particle gives off in a step, to first order.
+/// Shares of its velocity relative to the air that a particle loses in a step, to first order.
 struct AirDrag {
   float across;  // T a_across [1]
   float along;   // T a_along [1]
 };
 
-/// tangent: of length 1, or 0 for a particle without direction, which the air drags as if all passed across.
+/// tangent: unit vector; or 0 for a particle without a direction, for which all flow counts as across.
 /// strength: g / U^2 [1/m].
 AirDrag airDrag(vec3 u, vec3 tangent, float strength, float alongShare, float T) {
   float along = dot(tangent, u);

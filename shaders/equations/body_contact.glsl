@@ -1,38 +1,41 @@
-// Where a particle or an edge meets a body within a step, and what velocities that leaves it (our choice; the paper has
-// no bodies). In the body's frame, where it rests, ways are followed by the distance to its surface, which cannot be
-// overshot ("sphere tracing", Hart 1996). Mirrored by reference/equations/body_contact.h, where there is a sketch.
+// Where a particle or an edge touches a body within a step, and the velocities it may then have (our choice;
+// the paper has no bodies). In the body's frame, where the body is at rest, motion is traced by the distance
+// to the surface, which cannot be overshot ("sphere tracing", Hart 1996). Mirrored by
+// reference/equations/body_contact.h, which has a sketch.
 #ifndef RINGLET_BODY_CONTACT
 #define RINGLET_BODY_CONTACT
 
 #include "shared/body_buffers.glsl"
 
-const float kDone = 1e30;           // [m] along the way: tracing has ended. Results are carried by the loop, since
-                                    // lavapipe keeps executing lanes that have left it and preserves only what the loop
-                                    // carries
-const float kTouchDistance = 1e-5;  // [m]: nearer counts as touching; a tenth of a hair
-const float kOutside = 1e-4;        // [m]: no deeper counts as outside, and is put outside at once
-const int kTraceTurns = 16;         // looks along a way; grazing ones give up and count as touching
-const float kLeaveSpeed = 0.2;      // [m/s]: what begins inside leaves no faster
-const float kDeep = 1e-3;           // [m]: what is deeper inside leaves across its strand, which else would be
-                                    // stretched
-const float kDeepShare = 0.04;      // or crushed, held by this share of the weight
-const float kBodyWeight = 200.0;    // of what holds a particle at its allowed speed, in its masses
-const float kFullDeficit = 0.01;    // [m/s]: of a deficit that gives half of that weight: without a ramp, rounding
-                                    // would decide whether what just rests is held
-const uint kMostBuried = 4;         // of a strand whose root is in a body, so many particles may be under its skin,
-                                    // root included: these are not pushed
-const uint kKeepOutRounds = 8;      // after the move, out of bodies and within the stretch limit, by turns, until edges
-                                    // are short enough
-const float kLeastShare = 0.2;      // an edge touched nearer its other end does not move this one
+const float kDone = 1e30;           // [m] along the path: tracing has ended. Results are carried by the loop,
+                                    // since lavapipe keeps executing lanes that have left it and preserves
+                                    // only what the loop carries
+const float kTouchDistance = 1e-5;  // [m]: closer counts as touching; a tenth of a hair
+const float kOutside = 1e-4;        // [m]: a smaller depth counts as outside, and is corrected at once
+const int kTraceTurns = 16;         // distances taken along a path; grazing paths use them up and count as
+                                    // touching
+const float kLeaveSpeed = 0.2;      // [m/s]: largest speed at which something that began inside leaves
+const float kDeep = 1e-3;           // [m]: a deeper particle leaves across its strand, which would otherwise
+                                    // be stretched
+const float kDeepShare = 0.04;      // or crushed; it is held by this share of the weight
+const float kBodyWeight = 200.0;    // weight that holds a particle at its allowed speed, in its masses
+const float kFullDeficit = 0.01;    // [m/s]: the deficit with half of that weight: without a ramp, rounding
+                                    // would decide whether a resting particle is held
+const uint kMostBuried = 4;         // if a strand's root is in a body, this many particles, root included,
+                                    // may be under its skin and are not pushed
+const uint kKeepOutRounds = 8;      // after the move, rounds of pushing out of bodies and limiting stretch,
+                                    // until edges are short enough
+const float kLeastShare = 0.2;      // an edge touched closer to its other end than this does not move this
+                                    // end
 
-/// Where a way first touches.
+/// Where a path first touches a body.
 struct Touch {
   bool found;
-  bool passes;      // goes the whole way; neither, where an edge's end touches and the edge does not
-  Surface surface;  // there
-  vec3 place;       // in the body's frame [m]
-  vec3 from;        // what was there at the step's start [m]
-  float along;      // edges: share of the way from particle k to k + 1
+  bool passes;      // nothing touches; both are false if an end of an edge touches but the edge does not
+  Surface surface;  // at the place of contact
+  vec3 place;       // of contact, in the body's frame [m]
+  vec3 from;        // where that point was at the step's start [m]
+  float along;      // edges: position on the edge, 0 at particle k, 1 at k + 1
   float before;     // particles: distance at the step's start [m]
 };
 
@@ -58,7 +61,8 @@ Touch traceParticle(BodyRest body, vec3 y0, vec3 y1) {
   return touch;
 }
 
-/// Where the cubic with these values and slopes at 0 and 1 is least, for a first slope below 0 and a second above.
+/// The minimum of the cubic with these values and slopes at 0 and 1; the first slope is negative, the second
+/// positive.
 float leastOfCubic(float value0, float slope0, float value1, float slope1) {
   float rise = value1 - value0;
   float cube = slope0 + slope1 - 2.0 * rise;
@@ -67,14 +71,14 @@ float leastOfCubic(float value0, float slope0, float value1, float slope1) {
   return clamp(-slope0 / max(square + root, 1e-20), 0.0, 1.0);
 }
 
-/// The place of an edge from a to b that is deepest. Where that is an end, it is its particle's; and an edge with an
-/// end inside leaves with its particle.
+/// The deepest place of an edge from a to b. isWithin is false if that is an end, which counts as its
+/// particle's contact; an edge with an end inside leaves with that particle.
 struct EdgeSurface {
   bool isWithin;
   float along;
   Surface surface;
   vec3 place;
-  float nearest;  // distance of the nearest of ends and place [m]
+  float nearest;  // smallest distance of the ends and the place [m]
 };
 EdgeSurface edgeDistance(BodyRest body, vec3 a, vec3 b) {
   vec3 edge = b - a;
@@ -83,7 +87,8 @@ EdgeSurface edgeDistance(BodyRest body, vec3 a, vec3 b) {
   float slopeA = dot(atA.normal, edge);
   float slopeB = dot(atB.normal, edge);
   bool isWithin = slopeA < 0.0 && slopeB > 0.0 && min(atA.distance, atB.distance) >= -kOutside;
-  // Where its two slopes meet, which far from a thin body is it; then as a cubic, which near a round one is.
+  // First where its end slopes meet, which is the place far from a thin body; then as a cubic, which fits
+  // near a round one.
   float first = clamp((atB.distance - slopeB - atA.distance) / min(slopeA - slopeB, -1e-20), 0.0, 1.0);
   Surface there = bodyDistance(body, a + first * edge);
   float slope = dot(there.normal, edge);
@@ -98,7 +103,7 @@ EdgeSurface edgeDistance(BodyRest body, vec3 a, vec3 b) {
   return EdgeSurface(isWithin, along, surface, place, min(min(atA.distance, atB.distance), surface.distance));
 }
 
-/// Both ends move straight, a0 to a1 and b0 to b1, until the edge touches between them, or one of them does.
+/// Both ends move straight, a0 to a1 and b0 to b1, until the edge touches between them, or an end touches.
 Touch traceEdge(BodyRest body, vec3 a0, vec3 a1, vec3 b0, vec3 b1) {
   float longest = max(length(a1 - a0), length(b1 - b0));
   float gone = 0.0;
@@ -120,42 +125,46 @@ Touch traceEdge(BodyRest body, vec3 a0, vec3 a1, vec3 b0, vec3 b1) {
                deepest.place, a0 + deepest.along * (b0 - a0), deepest.along, 0.0);
 }
 
-/// How fast what touches must at least part from the body along n [m/s]; negative: how fast it may near it.
+/// The least speed along n at which a touching place must part from the body [m/s]; negative: it may approach
+/// this fast.
 float leastParting(Touch touch, float T) {
   return min((dot(touch.surface.normal, touch.place - touch.from) - touch.surface.distance) / T, kLeaveSpeed);
 }
 
-/// The weight that holds a particle of mass m which falls short of its least speed by `deficit` [m/s].
+/// The weight that holds a particle of mass m whose speed is `deficit` too small [m/s].
 float bodyWeight(float mass, float deficit) { return mass * kBodyWeight * deficit / (deficit + kFullDeficit); }
 
-/// The way out n of a particle so deep that its strand, along t, counts: across the strand, unless that is hardly out.
+/// The direction in which a deep particle leaves, for normal n and tangent t of its strand: across the
+/// strand, unless that hardly leads outwards.
 vec3 wayOutOfDepth(vec3 n, vec3 t) {
   vec3 across = n - dot(t, n) * t;
   float size = length(across);
   return size > 0.05 ? across / size : n;
 }
 
-/// Coulomb's friction, nearly all of it as a weight in the solve that takes `coefficient` times the normal momentum
-/// from what slides as fast as was found without: a strand feels as a whole what holds one of its particles.
+/// Coulomb friction, most of it: a weight for the solve that takes `coefficient` times the normal momentum
+/// from a particle that slides as fast as was found without friction. A strand as a whole then feels what
+/// holds one of its particles.
 float frictionWeight(vec3 sliding, float normalMomentum, float coefficient, float mass) {
   float most = coefficient * max(normalMomentum, 0.0);
   return min(most / max(length(sliding), 1e-6), mass * kBodyWeight);
 }
 
-/// And what that left, from each particle by itself, so that what stops, stops.
+/// The rest of the friction, applied to each particle alone, so that sliding stops completely.
 vec3 rubbed(vec3 velocity, vec3 sliding, float weight, float normalMomentum, float coefficient, float mass) {
   float speed = length(sliding);
   float left = coefficient * max(normalMomentum, 0.0) - weight * speed;
   return speed > 0.0 && left > 0.0 ? velocity - min(1.0, left / mass / speed) * sliding : velocity;
 }
 
-/// What velocity into the body [m/s], relative to it and along n, hair loses that is put back by `shift` [m]: as much
-/// as the shift is worth, and never so much that it bounces.
+/// The velocity into the body [m/s], relative to it and along n, that hair loses if it is moved out by
+/// `shift` [m]: at most what corresponds to the shift, and never so much that it bounces.
 vec3 slowedInward(vec3 relative, vec3 n, float shift, float T) {
   return clamp(-dot(n, relative), 0.0, max(shift, 0.0) / T) * n;
 }
 
-/// A particle that began the step outside, at y0, and has moved to y1: out of the body, the way it came.
+/// A particle that began the step outside, at y0, and has moved to y1: moves it out of the body where it came
+/// in.
 struct KeptOut {
   bool moved;
   vec3 place;
@@ -163,7 +172,8 @@ struct KeptOut {
 };
 KeptOut keptOut(BodyRest body, vec3 y0, vec3 y1) {
   Touch touch = traceParticle(body, y0, y1);
-  // Onto the plane where it touched, then out of what curves beyond it; else back to the place itself.
+  // Onto the plane where it touched, then out of what curves beyond it; if that fails, back to the place of
+  // contact.
   float beyond = dot(touch.surface.normal, y1 - touch.place) + touch.surface.distance;
   vec3 normal = touch.surface.normal;
   vec3 y = y1 - min(beyond, 0.0) * normal;

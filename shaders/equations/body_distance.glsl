@@ -1,17 +1,18 @@
-// How far a place is from a body's surface, and the way out, in the body's own frame. Mirrored by
+// Distance of a place from a body's surface, and the direction outwards, in the body's own frame. Mirrored by
 // reference/equations/body_distance.h.
 #ifndef RINGLET_BODY_DISTANCE
 #define RINGLET_BODY_DISTANCE
 
 #include "layout/bodies.h"
 
-/// Negative inside [m]; the way out has length 1.
+/// distance: negative inside [m]; normal: unit vector, outwards.
 struct Surface {
   float distance;
   vec3 normal;
 };
 
-/// A box, its edges and corners rounded off by `rounding` further out: without extents a ball, with one a capsule.
+/// A box, enlarged by `rounding` with rounded edges and corners. Without extents it is a sphere, with one a
+/// capsule.
 Surface boxDistance(vec3 halfExtents, float rounding, vec3 y) {
   vec3 beyond = abs(y) - halfExtents;
   vec3 outside = max(beyond, 0.0);
@@ -25,15 +26,16 @@ Surface boxDistance(vec3 halfExtents, float rounding, vec3 y) {
 
 Surface planeDistance(float rounding, vec3 y) { return Surface(y.y - rounding, vec3(0, 1, 0)); }
 
-/// Of a shape other than a grid.
+/// Any shape except a grid.
 Surface solidDistance(uint shape, vec3 halfExtents, float rounding, vec3 y) {
   if (shape == kShapeBox) return boxDistance(halfExtents, rounding, y);
   return planeDistance(rounding, y);
 }
 
-/// From the distances of a cell's corners (halves, two along x a word: y z, Y z, y Z, Y Z) [cells], the place f in it
-/// [cells] and how far beyond the grid that is [cells]. The surface lies within the grid, so a place a from the grid's
-/// nearest place c is at least sqrt(a^2 + distance(c)^2) from it.
+/// corners: distances at a cell's corners (halves, two along x in each word: y z, Y z, y Z, Y Z) [cells]; f:
+/// the place in the cell [cells]; beyond: vector from the grid to the place [cells]. The surface lies within
+/// the grid, so a place at distance a from the grid's nearest place c is at least sqrt(a^2 + distance(c)^2)
+/// from it.
 Surface gridDistance(uvec4 corners, vec3 f, vec3 beyond, float cell) {
   vec2 a = unpackHalf2x16(corners.x);
   vec2 b = unpackHalf2x16(corners.y);

@@ -1,6 +1,6 @@
-// One step of the strand's exact solve, from the tip: eliminates particle i+1 across edge i. Subtraction-free where it
-// matters: assembling A + P and inverting would lose the mass to cancellation in float32.
-// The reference does it the plain way, by block Cholesky in double: reference/strand_solve.h.
+// One step of the exact solve of a strand, from the tip: eliminates particle i+1 across edge i. It avoids
+// subtraction where that matters: assembling A + P and inverting it would lose the mass to cancellation in
+// float32. The reference uses plain block Cholesky in double: reference/strand_solve.h.
 #ifndef RINGLET_ELIMINATE_EDGE
 #define RINGLET_ELIMINATE_EDGE
 
@@ -8,7 +8,7 @@
 #include "maths/symmetric.glsl"
 
 struct Elimination {
-  mat3 transfer;       // M: v_{i+1} = M v_i + z + Z (whatever else pulls on i+1)
+  mat3 transfer;       // M: v_{i+1} = M v_i + z + Z (other pulls on i+1)
   vec3 offset;         // z
   Symmetric response;  // Z = (P_{i+1} + A)⁻¹
 };

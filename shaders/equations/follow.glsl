@@ -1,21 +1,21 @@
-// Where a point of a hair is that follows a guide. With s the share of the way from root to tip,
+// The place of a point of a hair that follows a guide. With s the share of the way from root to tip,
 //
 //     r = smoothstep(0, 1/5, s),   k = 1 + (spread - 1) smoothstep(0, 2/5, s)
 //     x = c + F Rz(r phase) z (1 + (radius - 1) r) + k ((1 - r) e + r F d)
 //
-// c: the guide's core, F: the frame along it, z: the guide's curl seen from F, d: the hair's offset, e: from the
-// guide's root to the hair's; F_root d with the frame at rest carried by the head, or what a scalp that bends makes of
-// it. Choe and Ko 2005 (wisps). Of several guides, with shares w_j of the core and the hair's offsets from each, it is
-// moved by
+// c: the guide's core; F: the frame along it; z: the guide's curl in F; d: the hair's offset; e: vector from
+// the guide's root to the hair's: F_root d with the frame at rest carried by the head, or as a deforming
+// scalp gives it. Choe and Ko 2005 (wisps). If it follows several guides, with shares w_j of the core and the
+// hair's offsets from each, it is displaced by
 //
 //     sum_j w_j (y_j - y_1),   y_j = c_j + (1 - r) F_j z_j + k ((1 - r) e_j + r F_j d_j)
 //
-// and keeps the first one's curl. Out of a body it is pushed by
+// and keeps the first guide's curl. It is pushed out of a body by
 //
 //     max(min(0, D, (1 - r) D_root) - d_x, 0)
 //
-// d_x, D, D_root: how far the point, its guide beside it (between particles, what is between theirs; of several guides
-// the sum of w_j D_j) and the hair's root are from the body's surface, negative inside. Mirrored by
+// d_x, D, D_root: distances from the body's surface, negative inside, of the point, of its guide beside it
+// (between particles interpolated; of several guides the sum of w_j D_j), and of the hair's root. Mirrored by
 // reference/equations/follow.h.
 #ifndef RINGLET_FOLLOW
 #define RINGLET_FOLLOW
@@ -23,20 +23,20 @@
 #include "equations/turbulence.glsl"
 #include "maths/quaternion.glsl"
 
-/// Of a guide, at one place along it.
+/// A guide at one place along it.
 struct GuidePlace {
   vec3 core;   // [m]
-  vec3 curl;   // of the strand from its core, along `frame` [m]
-  vec4 frame;  // takes normal, binormal, tangent to the world's axes
+  vec3 curl;   // offset of the strand from its core, in `frame` [m]
+  vec4 frame;  // takes normal, binormal, tangent to world axes
 };
 
-/// 0 up to 0, 1 from `end` on, smooth between.
+/// Rises smoothly from 0 at 0 to 1 at `end`; constant outside.
 float risesOver(float end, float share) {
   float x = clamp(share / end, 0.0, 1.0);
   return x * x * (3.0 - 2.0 * x);
 }
 
-/// Between two places; frames the shorter way. A curl's length goes from one to the other too.
+/// Interpolates between two places, frames along the shorter way. The length of the curl is interpolated too.
 GuidePlace placeBetween(GuidePlace a, GuidePlace b, float share) {
   vec4 frame = mix(a.frame, dot(a.frame, b.frame) < 0.0 ? -b.frame : b.frame, share);
   vec3 curl = mix(a.curl, b.curl, share);
@@ -45,7 +45,8 @@ GuidePlace placeBetween(GuidePlace a, GuidePlace b, float share) {
                     normalize(frame));
 }
 
-/// phase [rad], radius, spread: of the hair; offset, along the frames [m]; rootOffset: e [m]; share: s. [m]
+/// phase [rad], radius, spread: of the hair; offset: along the frames [m]; rootOffset: e [m]; share: s.
+/// Returns x [m].
 vec3 followedPoint(float phase, float radius, float spread, vec3 offset, GuidePlace place, vec3 rootOffset,
                    float share) {
   float r = risesOver(0.2, share);
@@ -59,7 +60,7 @@ vec3 followedPoint(float phase, float radius, float spread, vec3 offset, GuidePl
          k * ((1.0 - r) * rootOffset + r * rotate(place.frame, offset));
 }
 
-/// y of a guide, one of several [m]; offset, rootOffset: d and e from that guide.
+/// y_j for one of several guides [m]; offset, rootOffset: d_j and e_j.
 vec3 blendedPoint(float spread, vec3 offset, GuidePlace place, vec3 rootOffset, float share) {
   float r = risesOver(0.2, share);
   float k = 1.0 + (spread - 1.0) * risesOver(0.4, share);
@@ -67,8 +68,8 @@ vec3 blendedPoint(float spread, vec3 offset, GuidePlace place, vec3 rootOffset, 
          k * ((1.0 - r) * rootOffset + r * rotate(place.frame, offset));
 }
 
-/// How far a point is pushed out of a body [m]: no further than its guide and its own root let it. Distances from the
-/// body's surface, negative inside: of the point, its guide beside it and its root [m].
+/// How far a point is pushed out of a body [m]: no farther than its guide and its own root are. Distances
+/// from the body's surface, negative inside: of the point, of its guide beside it, and of its root [m].
 float wayOutBesideGuide(float ofPoint, float ofGuide, float ofRoot, float share) {
   float kept = min(0.0, min(ofGuide, (1.0 - risesOver(0.2, share)) * ofRoot));
   return max(kept - ofPoint, 0.0);

@@ -1,11 +1,12 @@
-// What an edge adds to the implicit velocity solve (M + T C + T² K) v⁺ = M v + T f (our choice; the paper, section 5,
-// loops explicitly): the matrix across I + along ê êᵀ between its two particles. Mirrored by
+// The terms of an edge in the implicit velocity solve (M + T C + T² K) v⁺ = M v + T f (our choice; the paper,
+// section 5, uses explicit loops): the matrix across I + along ê êᵀ between its two particles. Mirrored by
 // assembleSystem in reference/kernels/strand_step.h.
 #ifndef RINGLET_IMPLICIT_EDGE
 #define RINGLET_IMPLICIT_EDGE
 
-/// Backward Euler damps by T k of itself: take that off the bend damping, but keep half, so that motion does not depend
-/// on the step. (The reference: compensatedBendDamping in reference/equations/bend_spring.h.)
+/// Backward Euler itself damps by T k. This is subtracted from the bend damping, down to half of it, so that
+/// motion does not depend on the step length. (In the reference: compensatedBendDamping in
+/// reference/equations/bend_spring.h.)
 float compensatedBendDamping(float damping, float stiffness, float T) {
   return max(damping - T * stiffness, 0.5 * damping);
 }
@@ -16,8 +17,8 @@ struct ImplicitEdge {
   float across;    // bending [mass unit]; positive for a real edge, 0 for a void one
 };
 
-/// T: the step; stiffness and damping per edge, the bend's compensated. It acts across the edge only (eq. 3), hence the
-/// difference.
+/// T: step length; stiffness and damping per edge, bend damping compensated. Bending acts across the edge
+/// only (eq. 3), hence the difference.
 ImplicitEdge implicitEdge(vec3 direction, float T, float stretchStiffness, float stretchDamping, float bendStiffness,
                           float bendDamping) {
   float along = max(0.0, T * (stretchDamping + T * stretchStiffness - bendDamping));

@@ -6,15 +6,15 @@
 #ifndef RINGLET_TURBULENCE
 #define RINGLET_TURBULENCE
 
-/// An angle of up to 1,000 turns, less whole turns [rad]: in [-pi, pi].
+/// Subtracts whole turns from an angle of up to 1,000 turns [rad]: the result is in [-pi, pi].
 float foldedAngle(float angle) {
   float turns = floor(angle * 0.15915494 + 0.5);
-  // 2 pi in two parts, the first in so few digits that its product is exact.
+  // 2 pi in two parts, the first with so few digits that its product is exact.
   return (angle - turns * 6.28125) - turns * 0.0019353072;
 }
 
-/// cos() of an angle in [-pi, pi], as sin(pi / 2 - |angle|): an odd polynomial through Chebyshev nodes, right to 2e-7.
-/// Vulkan owes cos() 2^-11 only, and drivers differ.
+/// cos() of an angle in [-pi, pi], as sin(pi / 2 - |angle|): an odd polynomial through Chebyshev nodes,
+/// accurate to 2e-7. Vulkan guarantees only 2^-11 for cos(), and drivers differ.
 float cosOfFolded(float angle) {
   float x = (1.57079637 - abs(angle)) - 4.37113883e-8;  // pi / 2 in two parts
   float squared = x * x;
@@ -22,7 +22,7 @@ float cosOfFolded(float angle) {
   return x * (1.0 + squared * (-0.166666582 + squared * tail));
 }
 
-/// wave [rad/m], amplitude [m/s], phase where x is 0 [rad], x [m]: wind [m/s].
+/// wave [rad/m], amplitude [m/s], phase at x = 0 [rad], x [m]. Returns the wind [m/s].
 vec3 windOfMode(vec3 wave, vec3 amplitude, float phase, vec3 x) {
   return cosOfFolded(foldedAngle(dot(wave, x) + phase)) * amplitude;
 }

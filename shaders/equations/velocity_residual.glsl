@@ -1,10 +1,10 @@
-// How well velocities solve the implicit system L v = r: |r - L v| over |r| and a step's gravity, T m 9.81 m/s^2,
-// together. Without the gravity a hair at rest, whose r vanishes, would have no scale. Ours; the reference solves
-// exactly.
+// The relative residual of the implicit system L v = r: |r - L v| relative to |r| combined with a step's
+// gravity, T m 9.81 m/s^2. Without gravity a hair at rest, for which r is 0, would have no scale. Our own;
+// the reference solves exactly.
 #ifndef RINGLET_VELOCITY_RESIDUAL
 #define RINGLET_VELOCITY_RESIDUAL
 
-/// One particle's share of the scale, squared.
+/// The squared contribution of one particle to the scale.
 float residualScaleSquared(vec3 rightHandSide, float mass, float T) {
   float gravity = T * mass * 9.81;
   return dot(rightHandSide, rightHandSide) + gravity * gravity;
