@@ -1,9 +1,10 @@
-// Sums of many integers, of which 32 bits have no room: of each term its upper 16 bits are added to `high`, the lower
-// to `low`, and the sum is 65536 high + low. Up to 65537 terms may be added between two carries: low is unsigned then.
+// Sums of many integers that exceed 32 bits: the upper 16 bits of each term are added to `high`, the lower
+// ones to `low`, and the sum is 65536 high + low. Up to 65537 terms may be added between two carries, since
+// low counts as unsigned.
 #ifndef RINGLET_SPLIT_SUM
 #define RINGLET_SPLIT_SUM
 
-/// What the low numbers hold beyond 16 bits goes into the high ones.
+/// Moves the bits of the low numbers beyond 16 into the high ones.
 void carry(inout ivec4 high, inout ivec4 low) {
   high += ivec4(uvec4(low) >> 16);
   low &= 0xffff;

@@ -6,7 +6,7 @@
 
 shared uint blockSums[kMostInvocations];
 
-/// The sum of x over the invocations before this one. Called by all of the workgroup.
+/// The sum of x over the invocations before this one. Call it with all invocations of the workgroup.
 uint sumBefore(uint x) {
   uint i = gl_LocalInvocationID.x;
   blockSums[i] = x;

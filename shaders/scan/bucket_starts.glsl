@@ -1,6 +1,6 @@
-// Where buckets of sorted entries start, from how many each has: prefix sums over a dispatch with a workgroup per block
-// of kBucketBlock buckets. The kernel that includes this says where numbers stand, and has what shared/last_group.glsl
-// asks for.
+// Computes where each bucket of sorted entries starts, from its number of entries: prefix sums by a dispatch
+// with a workgroup for each block of kBucketBlock buckets. The kernel that includes this defines where the
+// numbers are stored, and what shared/last_group.glsl requires.
 #ifndef RINGLET_BUCKET_STARTS
 #define RINGLET_BUCKET_STARTS
 
@@ -9,11 +9,12 @@
 #include "shared/last_group.glsl"
 #include "shared/workgroup.glsl"
 
-/// Entries of a bucket.
+/// Number of entries of a bucket.
 uint entriesOf(uint bucket);
-/// Sets where a bucket starts within its block, and its entries to 0 for the next time.
+/// Sets the start of a bucket within its block, and its number of entries to 0 for the next time.
 void setStart(uint bucket, uint start);
-/// By atomics, which the last workgroup sees: the sum of a block, and what it was before it is this.
+/// The sum of a block: reads it, and replaces it by `sum` and returns the old value. By atomics, which the
+/// last workgroup sees.
 uint sumOf(uint block);
 uint exchangeSum(uint block, uint sum);
 
@@ -32,8 +33,8 @@ void startInBlock() {
   if (gl_LocalInvocationID.x + 1 == gl_WorkGroupSize.x) exchangeSum(gl_WorkGroupID.x, before);
 }
 
-/// Sets all starts within blocks, and the sum before each block. Called once, by all invocations. True in one of them,
-/// with the number of all entries.
+/// Sets all starts within blocks, and the sum before each block. Call it once, with all invocations. Returns
+/// true in one of them, with the number of all entries.
 bool setStarts(out uint all) {
   startInBlock();
   if (!isLastGroup()) return false;

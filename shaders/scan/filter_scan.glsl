@@ -1,11 +1,12 @@
-// Carries the smoothing filter across lanes: from each lane's end state to the state in which the next lane begins.
+// Carries the smoothing filter across lanes: from each lane's end state to the state in which the next lane
+// starts.
 #ifndef RINGLET_FILTER_SCAN
 #define RINGLET_FILTER_SCAN
 
 #include "equations/smoothing.glsl"
 #include "scan/lanes.glsl"
 
-/// γ^RUN by squaring, from RUN's highest bit down, which g begins as (pow() would cost digits and time).
+/// γ^RUN by squaring, from RUN's highest bit down, which is the initial g (pow() would cost digits and time).
 float gammaToRun(float beta) {
   float gamma = keptShare(beta);
   float g = gamma;
@@ -16,7 +17,8 @@ float gammaToRun(float beta) {
   return g;
 }
 
-/// `end`: state after this lane's run, started from zero, or in lane 0 from `start`. Returns the state before the run.
+/// `end`: state after this lane's run, filtered from zero, or in lane 0 from `start`. Returns the state
+/// before the run.
 FilterState filterBeforeRun(FilterState end, FilterState start, float beta) {
   if (kLanes == 1) return start;
   float n = float(RUN);
@@ -32,7 +34,8 @@ FilterState filterBeforeRun(FilterState end, FilterState start, float beta) {
   return lane == 0 ? start : before;
 }
 
-/// The same from the tip: `end` is the state after this lane's run was taken in from its tip end, from zero.
+/// The same from the tip: `end` is the state after this lane's run was filtered from its tip end, starting
+/// from zero.
 FilterState filterBeyondRun(FilterState end, float beta) {
   FilterState nothing = emptyFilter();
   if (kLanes == 1) return nothing;

@@ -1,13 +1,14 @@
-// Carries frames across lanes. Along its run a lane carries a normal of its own choice; what it lacks to the frame's
-// normal is one angle about the curve for the whole run, and angles add up.
+// Carries frames across lanes. Each lane transports a normal of its own choice along its run; it differs from
+// the frame's normal by one angle about the curve, which is the same for the whole run, and angles add up.
 #ifndef RINGLET_FRAME_SCAN
 #define RINGLET_FRAME_SCAN
 
 #include "equations/frame.glsl"
 #include "scan/lanes.glsl"
 
-/// `normal`: what this lane began with, about `direction`; `normalAfter`: what that has become at the run's end.
-/// Returns cosine and sine of the angle from the lane's normals to the frames'; lane 0 begins with the frame's own.
+/// `normal`: normal with which this lane started, perpendicular to `direction`; `normalAfter`: the same at
+/// the run's end. Returns cosine and sine of the angle from the lane's normals to the frames'; lane 0 starts
+/// with the frame's own.
 vec2 twistOfRun(vec3 direction, vec3 normal, vec3 normalAfter) {
   if (kLanes == 1) return vec2(1, 0);
   vec3 arriving = fromRootward(normalAfter, 1);

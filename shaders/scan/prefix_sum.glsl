@@ -1,4 +1,4 @@
-// Sums along a strand: what all lanes nearer the root have summed up.
+// Sums along a strand: the sum over all lanes closer to the root.
 #ifndef RINGLET_PREFIX_SUM
 #define RINGLET_PREFIX_SUM
 

@@ -1,11 +1,12 @@
-// Loops over records of other particles ask for several before they use the first. An invocation spends most of its
-// time waiting for memory, and waits for all of these as long as for one.
+// Loops over records of other particles load several before they use the first. An invocation spends most of
+// its time waiting for memory, and several loads take no longer than one.
 #ifndef RINGLET_AT_ONCE
 #define RINGLET_AT_ONCE
 
 const uint kAtOnce = 4;
 
-/// Takes the lowest bits out of a mask that is not 0. Returns how many; behind these `bits` repeats the last.
+/// Removes the lowest bits from a mask that is not 0, at most kAtOnce. Returns their number; unused entries
+/// of `bits` repeat the last one.
 uint takeBits(inout uint mask, out uint bits[kAtOnce]) {
   uint count = min(uint(bitCount(mask)), kAtOnce);
   for (uint j = 0; j < kAtOnce; ++j) {

@@ -1,4 +1,5 @@
-// The bodies that hair collides with, and the distance of a place from one. Part of strand_buffers.glsl.
+// Buffers of the bodies that hair collides with, and the distance of a place from a body. Part of
+// strand_buffers.glsl.
 #ifndef RINGLET_BODY_BUFFERS
 #define RINGLET_BODY_BUFFERS
 
@@ -61,7 +62,7 @@ vec3 placeAtStart(BodyStep body, vec3 p) {
 vec3 placeAtEnd(BodyStep body, vec3 p) { return rotate(conjugate(body.after.rotation), p - body.after.position); }
 vec3 outOfBody(BodyStep body, vec3 y) { return rotate(body.after.rotation, y) + body.after.position; }
 vec3 outward(BodyStep body, vec3 normal) { return rotate(body.after.rotation, normal); }
-/// Velocity of the point of the body that is at p at the step's start [m/s].
+/// Velocity of the body's point that is at p at the step's start [m/s].
 vec3 bodyVelocityAt(BodyStep body, vec3 p, float T) {
   return body.after.velocity.xyz + displacement(body.after.turn, p - body.before.position) / T;
 }

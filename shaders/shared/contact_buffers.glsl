@@ -41,18 +41,19 @@ layout(set = 0, binding = kBindForceTexels) uniform usamplerBuffer forceTexels;
 layout(push_constant) uniform Parameters { ContactParameters parameters; };
 layout(set = 0, binding = kBindContactNumbers) uniform Numbers { ContactNumbers numbers; };
 
-layout(constant_id = kSpecInGroups) const bool kInGroups = false;  // strands of one group do not meet pair by pair
+layout(constant_id = kSpecInGroups) const bool kInGroups = false;  // strands of one group do not touch pair
+                                                                   // by pair
 layout(constant_id = kSpecDivided) const bool kDivided = false;   // other devices step some of the strands
 layout(constant_id = kSpecForGpu) const bool kForGpu = false;
 
 uvec4 neighbourRecord(uint i) { return kTexels ? recordAt(neighbourTexels, i) : neighbours[i]; }
-/// Strands of one group do not meet pair by pair (rest/volume_strands.h).
+/// The group of a strand. Strands of one group do not touch pair by pair (rest/volume_strands.h).
 uint groupOf(uint strand) { return kInGroups ? neighbourRecord(strand).z : strand; }
 /// Strands that another device steps are found as neighbours, but have no lists and no contacts here
 /// (solver/divided/divided_hair.h).
 bool isElsewhere(uint strand) { return kDivided && neighbourRecord(strand).w != 0; }
 
-// Accessors of records, as these were when the dispatch began.
+// Accessors of records, as they were when the dispatch began.
 vec3 positionOf(uint particle) { return kTexels ? vectorAt(positionTexels, particle).xyz : positions[particle].xyz; }
 vec3 lastVelocityOf(uint particle) {
   return kTexels ? vectorAt(velocityTexels, particle).xyz : velocities[particle].xyz;
@@ -69,8 +70,8 @@ uint contactAt(uint particle) {
   uvec2 two = (particle & 2) == 0 ? four.xy : four.zw;
   return (particle & 1) == 0 ? two.x : two.y;
 }
-/// Whether a particle comes before another in the whole groom. If strands are divided among devices, those of others
-/// stand last on this one; contact particles are in the groom's order everywhere.
+/// Whether a particle comes before another in the whole groom. If strands are divided among devices, those of
+/// other devices come last on this one, but contact particles are in groom order everywhere.
 bool isBefore(uint particle, uint other) {
   return kDivided ? contactAt(particle) < contactAt(other) : particle < other;
 }
@@ -103,13 +104,13 @@ ContactForce forceAt(uint entry) {
   return ContactForce(vectorAt(forceTexels, 2 * entry), b.x, uintBitsToFloat(b.y), uintBitsToFloat(b.z), 0);
 }
 
-/// Contact particle k of this step's sample, one in sampleStride of all; kNoContact: there are fewer. If strands are
-/// divided among devices, those of strands that are stepped here stand in a list by what their index in the whole groom
-/// leaves modulo the stride; before it, where those of each remainder begin.
+/// Contact particle k of this step's sample, one in sampleStride of all; kNoContact if there are fewer. If
+/// strands are divided among devices, the contact particles of strands stepped here are in a list by their
+/// index in the whole groom modulo the stride; before them the list has the start of each remainder.
 const uint kNoContact = 0xffffffffu;
-/// Invocations that share a particle of a sample: on a GPU the longest search of one is what a dispatch takes.
+/// Invocations that share a particle of a sample: on a GPU a dispatch takes as long as its longest search.
 const uint kSampleLanes = kForGpu ? 9 : 1;
-/// Particles of a sample that a workgroup looks at.
+/// Particles of a sample for each workgroup.
 uint sampledOfGroup() { return gl_WorkGroupSize.x / kSampleLanes; }
 uint sampledContact(uint k) {
   uint remainder = control.steps % numbers.sampleStride;
@@ -134,11 +135,11 @@ uint gridRank(uint c) { return gridBucketOf(numbers.contactCount) + c; }
 /// The contact particle at a place; the order within a bucket is arbitrary.
 uint gridEntry(uint place) { return gridRank(numbers.contactCount) + place; }
 
-/// If some hair meets as a volume: the group in a cell, and in a region of eight cells, as kSeveralGroups describes.
+/// If some hair is a volume: the group in a cell, and in a region of eight cells; see kSeveralGroups.
 uint cellGroups(uint bucket) { return gridEntry(numbers.contactCount) + bucket; }
 uint regionGroups(uint bucket) { return cellGroups(numbers.bucketCount) + bucket; }
 bool hasOthers(uint groups, uint group) { return groups != 0 && groups != group + 1; }
-/// Contact particles in the grid: if some hair meets as a volume, only those with a possible partner nearby.
+/// Contact particles in the grid: if some hair is a volume, only those with a possible partner nearby.
 uint placedCount() {
   return kInGroups ? grid[gridSum(numbers.bucketCount / kBucketBlock)] : numbers.contactCount;
 }
@@ -175,7 +176,7 @@ uint liveListOf(uint c, uint parity) { return (2 * c + parity) * (1 + numbers.mo
 uint forceEntry(uint list, uint j) { return liveLists[list + 1 + j / kLiveBlock] * kLiveBlock + j % kLiveBlock; }
 uint lifeEntry(uint parity, uint force) { return parity * numbers.liveBlockCount * kLiveBlock + force; }
 
-/// Pairs and the places and velocities of their others, asked for at once.
+/// Pairs, with place and velocity of the other particle, loaded together.
 struct Partners {
   ContactPair pair[kAtOnce];
   vec3 x[kAtOnce];
@@ -191,12 +192,12 @@ Partners partnersAt(uint entries[kAtOnce]) {
   return some;
 }
 
-/// Whether every list found room for all its pairs.
+/// Whether every list had room for all its pairs.
 bool listsHadRoom() {
   return control.blocks <= numbers.blockCount && control.longestList <= numbers.mostBlocks * kListBlock;
 }
-/// Of one invocation. If lists had no room, contact kernels do nothing until the host has enlarged the buffers. If they
-/// had, the step has examined every pair in them.
+/// Called by one invocation. If lists had no room, contact kernels do nothing until the host has enlarged the
+/// buffers. If they had, the step has tested every pair in them.
 void endLists(bool hadRoom) {
   if (hadRoom) {
     control.pairTests += control.listed;
@@ -205,7 +206,7 @@ void endLists(bool hadRoom) {
   }
 }
 
-// Of shared/last_group.glsl.
+// Required by shared/last_group.glsl.
 uint addFinished() { return atomicAdd(control.finished, 1); }
 void clearFinished() { control.finished = 0; }
 

@@ -25,7 +25,7 @@ void judgeLists() {
   ++control.rebuilds;
 }
 
-// Of hair divided among devices parts ask together: contact_judge.comp judges all their samples.
+// With divided hair, contact_judge.comp evaluates the samples of all parts together later.
 bool isJudgedLater() { return kDivided && numbers.sampleStride > 0; }
 
 void dispatchGrid(bool grid, bool asks) {
@@ -41,7 +41,7 @@ void dispatchGrid(bool grid, bool asks) {
   }
 }
 
-/// Decides from motion and speed. New lists are judged at once where no sample is asked.
+/// Decides by motion and speed. Without a sample, new lists are started at once.
 void decideLists() {
   control.indirectMeeting[0] = 0;
   control.meetingCount = 0;
@@ -65,7 +65,7 @@ void decideLists() {
   control.liveBlocks = 0;
   control.longestLive = 0;
   if (!isGood) {
-    // The largest distance of a pair in these lists, and a margin for the rounding of cells.
+    // The largest distance of a pair in these lists, with a margin for the rounding of cells.
     float R = 2.0 * numbers.largestRadius;
     float ahead = 2.0 * numbers.seconds * speed;
     control.cellSize =

@@ -14,7 +14,8 @@ vec3 v;
 bool isSought(vec3 otherPosition, vec3 otherVelocity, uint otherParticle, float r0);
 void take(ContactRest other, float R, float r0);
 
-// Looks a strand up in the table that solver/contacts/neighbour_table.h fills. own: record of this invocation's strand.
+// Looks up a strand in the table that solver/contacts/neighbour_table.h fills. own: record of this
+// invocation's strand.
 bool mayTouch(uvec4 own, uint strand) {
   uint bucket = strand * 2654435761u >> 16;
   uint tried = 0;
@@ -36,16 +37,16 @@ bool rowHasOthers(uint first, uint group) {
 
 const int kSearchRows = 9;  // of three cells along x
 
-// Searches around contact particle c, whose position, velocity and strand's group these are, in rows [row, rowEnd).
-// skin: distance by which isSought looks farther than the pairs that may touch within the step [m]. Returns false where
-// the driver ended a loop early.
+// Searches around contact particle c with this position, velocity and group of its strand, in rows [row,
+// rowEnd). skin: distance by which isSought looks farther than pairs that may touch within the step [m].
+// Returns false if the driver ended a loop early.
 bool search(uint c, vec3 position, vec3 velocity, uint group, float skin, int row, int rowEnd) {
   rest = contactOf(c);
   uvec4 ownNeighbours = numbers.everyPair != 0 ? uvec4(0) : neighbourRecord(rest.strand);
   precise vec3 here = position;
   x = here;
   v = velocity;
-  // An upper bound of the reach of all pairs: by the largest radius, and by the largest speed.
+  // An upper bound of the reach of all pairs, from the largest radius and the largest speed.
   float mostR = rest.radius + numbers.largestRadius;
   precise float farthest = min(numbers.listedAhead * mostR + skin, control.cellSize);
   ivec3 cell = cellOf(x);
@@ -76,7 +77,7 @@ bool search(uint c, vec3 position, vec3 velocity, uint group, float skin, int ro
         ++made;
       } while (++k < looked);
       wanted += looked + bitCount(near);
-      uint meeting = 0;  // pairs that are near enough for the speed of their approach
+      uint meeting = 0;  // pairs that are close enough for the speed of their approach
       if (near != 0) do {
         uint k = findLSB(near);
         near &= near - 1;

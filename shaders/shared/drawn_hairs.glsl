@@ -1,4 +1,4 @@
-// Hairs to be drawn: their points and looks.
+// Points and looks of the hairs that are drawn.
 #ifndef RINGLET_DRAWN_HAIRS
 #define RINGLET_DRAWN_HAIRS
 
@@ -16,7 +16,7 @@ DrawnHair drawnHair(uint h) {
   uvec4 hair = recordAt(drawnHairTexels, h);
   return DrawnHair(hair.x, hair.y, uintBitsToFloat(hair.z), uintBitsToFloat(hair.w));
 }
-/// share: of the way from root to tip. Hairs keep their width and thin out towards the end.
+/// share: of the way from root to tip. Hairs keep their width and become thin only towards the tip.
 float radiusAt(DrawnHair hair, float share) {
   return hair.radius * (1.0 - (1.0 - picture.tipRadius) * share * share * share);
 }

@@ -1,4 +1,4 @@
-// The buffers of the force fields that act on hair. Part of strand_buffers.glsl.
+// Buffers of the force fields. Part of strand_buffers.glsl.
 #ifndef RINGLET_FIELD_BUFFERS
 #define RINGLET_FIELD_BUFFERS
 

@@ -1,5 +1,5 @@
-// A point of a hair beside its guide, as kernels of a point an invocation find it; compiled with RINGLET_BLENDS beside
-// three guides. Mirrored by reference/follow_guide.h.
+// A point of a hair beside its guide, as needed by kernels with an invocation for each point; compiled with
+// RINGLET_BLENDS for three guides. Mirrored by reference/follow_guide.h.
 #ifndef RINGLET_HAIR_ON_GUIDE
 #define RINGLET_HAIR_ON_GUIDE
 
@@ -16,12 +16,12 @@ GuidePlace placeAt(uint i) {
 }
 vec3 pointOf(GuidePlace place) { return place.core + rotate(place.frame, place.curl); }
 
-/// Beside a point of a hair.
+/// The guide beside a point of a hair.
 struct GuideBeside {
-  GuidePlace before, after;  // the guide's particles,
-  float between;             // and where between them
+  GuidePlace before, after;  // the guide's particles before and after the point
+  float between;             // position between them, 0 to 1
 };
-// Behind a guide's particle `after` - 1, and how far of the way to `after`.
+// Position on a guide: between particles `after` - 1 and `after`, 0 to 1.
 struct AlongGuide {
   uint after;
   float between;
@@ -29,7 +29,8 @@ struct AlongGuide {
 AlongGuide placeAlong(FollowGuide guide, float along) {
   uint k = min(uint(along), guide.particleCount - 2);
   float between = along - float(k);
-  if (beginsPiece(guide.firstParticle + k + 1)) between = between < 0.5 ? 0.0 : 1.0;  // beside a cut
+  if (beginsPiece(guide.firstParticle + k + 1)) between = between < 0.5 ? 0.0 : 1.0;  // no interpolation
+                                                                                      // across a cut
   return AlongGuide(k + 1, between);
 }
 GuideBeside besideOf(FollowGuide guide, float along) {
@@ -42,12 +43,12 @@ GuidePlace placeOf(GuideBeside beside) { return placeBetween(beside.before, besi
 struct HairOnGuide {
   FollowHair hair;
   FollowGuide guide;
-  vec3 rootOffset;  // in this pose from the guide's root to the hair's [m]
+  vec3 rootOffset;  // from the guide's root to the hair's, in this pose [m]
   float share;      // of the way from root to tip
-  float along;      // where on the guide that is, in edges
+  float along;      // position on the guide, in edges
   GuideBeside own;
 #ifdef RINGLET_BLENDS
-  float weights[2];     // of these guides' cores
+  float weights[2];     // of the other guides' cores
   vec3 offsets[2];      // d [m]
   vec3 rootOffsets[2];  // e [m]
   GuideBeside others[2];
@@ -56,7 +57,7 @@ struct HairOnGuide {
 };
 
 #ifdef RINGLET_BLENDS
-/// Of a hair's other guide.
+/// Sets the values of another guide of the hair.
 void besideOther(uint k, FollowBlend blend, vec3 root, inout HairOnGuide point) {
   FollowGuide guide = followGuide(blend.guides[k]);
   float along = point.along / float(point.guide.particleCount - 1) * float(guide.particleCount - 1);
@@ -67,7 +68,8 @@ void besideOther(uint k, FollowBlend blend, vec3 root, inout HairOnGuide point) 
 }
 #endif
 
-// Where point i of a hair is on its guide, in edges. A shorter hair lags behind its guide, but for the root.
+// Position of point i of a hair on its guide, in edges. Points of a shorter hair lie further back, except at
+// the root.
 float alongGuide(uint i, FollowHair hair, FollowGuide guide) {
   float share = float(i) / float(guide.particleCount - 1);
   return float(i) * (1.0 + (hair.lengthShare - 1.0) * risesOver(0.2, share));
@@ -82,7 +84,7 @@ bool isCutAfter(uint i, FollowHair hair, FollowGuide guide) {
   return at < nextAt && isCutBeyond(guide.firstParticle + nextAt - 1);
 }
 
-/// Point i of hair h, where i is below the guide's particleCount.
+/// Point i of hair h; i must be below the guide's particleCount.
 HairOnGuide hairOnGuide(uint h, uint i, FollowHair hair, FollowGuide guide) {
   HairOnGuide point;
   uint last = guide.particleCount - 1;
@@ -103,7 +105,7 @@ HairOnGuide hairOnGuide(uint h, uint i, FollowHair hair, FollowGuide guide) {
   return point;
 }
 
-/// Where it is, were there no bodies [m].
+/// Its place without bodies [m].
 vec3 followed(HairOnGuide point) {
   GuidePlace place = placeOf(point.own);
   vec3 x = followedPoint(point.hair.phase, point.hair.radius, point.hair.spread, point.hair.offset, place,

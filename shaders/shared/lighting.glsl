@@ -1,8 +1,8 @@
-// Light on hair and on bodies: two lights and a sky, through the hair that is before them.
+// Light on hair and bodies: two lights and a sky, through the hair in front of them.
 //
-// Light that reaches a hair is of two kinds: what came straight, less by every hair before it; and what came through
-// hairs and took on their colour, which is scattered to all sides (dual scattering, Zinke et al. 2008, with the two
-// factors below in place of its sums).
+// Light that reaches a hair has two parts: direct light, which every hair in front of it weakens; and light
+// that passed through hairs and took on their colour, which is scattered in all directions (dual scattering,
+// Zinke et al. 2008, with the two factors below instead of its sums).
 #ifndef RINGLET_LIGHTING
 #define RINGLET_LIGHTING
 
@@ -10,11 +10,11 @@
 #include "equations/hair_scattering.glsl"
 #include "shared/shadow_volume.glsl"
 
-const float kDims = 0.9;     // of straight light behind a hair
-const float kScattered = 0.10;  // what light through hair loses at each: white hair, and
-const float kAbsorbed = 0.45;   // black hair, more
+const float kDims = 0.9;     // loss of direct light at a hair
+const float kScattered = 0.10;  // loss of transmitted light at each hair: of white hair, and
+const float kAbsorbed = 0.45;   // the additional loss of black hair
 
-/// Radiance towards the eye of a hair at x. colour: of light that went through a fibre.
+/// Radiance of a hair at x towards the eye. `colour`: of light that passed through a fibre.
 vec3 shadedHair(vec3 x, vec3 tangent, HairFibre fibre) {
   vec3 eye = normalize(picture.eye.xyz - x);
   vec3 colour = exp(-4.0 * fibre.absorption);
@@ -33,12 +33,12 @@ vec3 shadedHair(vec3 x, vec3 tangent, HairFibre fibre) {
   }
   float open = opennessAt(x);
   vec3 sky = mix(picture.skyBelow.rgb, picture.skyAbove.rgb, 0.5 + 0.5 * facing.y);
-  // Where little of the sky is seen, what comes from it went through hair.
+  // Where little of the sky is visible, its light passed through hair.
   return radiance + sky * (0.8 * colour * mix(vec3(open), vec3(1), colour) * sqrt(open) + 0.012 * open * open);
 }
 
-/// Share of a light that arrives about x: the mean over the corners of a cube, since patches and hairs are counted into
-/// cells and leave steps at their borders.
+/// Share of a light that arrives around x: the mean over the corners of a cube, since patches and hairs are
+/// counted in cells, which would show as steps.
 float softLight(uint light, vec3 x) {
 #ifdef RINGLET_PREVIEW
   return exp(-hairsBefore(light, x));
@@ -50,10 +50,11 @@ float softLight(uint light, vec3 x) {
 #endif
 }
 
-/// Of a surface. colour: the share that it reflects.
+/// Radiance of a surface. colour: its reflectance.
 vec3 shadedSolid(vec3 x, vec3 normal, vec3 colour) {
   vec3 eye = normalize(picture.eye.xyz - x);
-  vec3 above = x + normal * (3.0 * sqrt(picture.shadowCellArea));  // clear of the cells that hold the surface
+  vec3 above = x + normal * (3.0 * sqrt(picture.shadowCellArea));  // outside of the cells that contain the
+                                                                   // surface
   vec3 radiance = vec3(0);
   for (uint l = 0; l < 2; ++l) {
     vec3 light = picture.lightDirection[l].xyz;

@@ -1,5 +1,5 @@
-// The buffers and parameters of part_pack.comp and part_unpack.comp (layout/parts.h). Numbers are moved as integers: a
-// driver may flush to 0 a small one that it moves as a float.
+// The buffers and parameters of part_pack.comp and part_unpack.comp (layout/parts.h). Floats are moved as
+// integers: a driver may flush a small float to 0.
 #ifndef RINGLET_PART_BUFFERS
 #define RINGLET_PART_BUFFERS
 

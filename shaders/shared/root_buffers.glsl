@@ -1,5 +1,5 @@
-// The poses that carry the strand's root: the head's, and the strand's own if strands have some. The strand is `strand`
-// and `strandAt` of strand_buffers.glsl.
+// The poses that carry the root of `strand` (strand_buffers.glsl, with its index `strandAt`): the head's, and
+// the strand's own if strands have some.
 #ifndef RINGLET_ROOT_BUFFERS
 #define RINGLET_ROOT_BUFFERS
 
@@ -29,13 +29,14 @@ vec3 rootVelocity(uint pose) {
   return kTexels ? vectorAt(rootPoseTexels, 4 * i + 3).xyz : rootPoses[i].velocity.xyz;
 }
 
-// What was cut off has its rest state as it lay then, along world axes.
+// Fallen hair has its rest state along world axes, as it was when it was cut off.
 vec4 rotationAt(uint pose) {
   if (kFalls) return vec4(0, 0, 0, 1);
   if (!kMovingRoots) return stepPose(pose).rotation;
   return rootRotation(pose);
 }
-// The turn from the last pose. It is stored, since as the difference of two rotations it would lose its digits.
+// The rotation from the pose before. It is stored, since computed as the difference of two rotations it would
+// lose digits.
 vec4 turnTo(uint pose) {
   if (!kMovingRoots) return stepPose(pose).turn;
   return rootTurn(pose);
@@ -45,12 +46,12 @@ vec4 rotationAtStart(uint step) { return rotationAt(step); }
 vec4 rotationAtEnd(uint step) { return rotationAt(step + 1); }
 vec3 headVelocityChange(uint step) { return inertiaFactor() * stepPose(step + 1).velocityChange; }
 
-/// Velocity of x, a place at the step's start, by the turn in this step [m/s].
+/// Velocity at x, a place at the step's start, due to the rotation in this step [m/s].
 vec3 turningVelocity(uint step, vec3 x) { return displacement(turnTo(step + 1), x) / stepSeconds(); }
-/// The same, by the turn in the last step.
+/// The same, due to the rotation in the last step.
 vec3 turningVelocityBefore(uint step, vec3 x) { return -displacement(conjugate(turnTo(step)), x) / stepSeconds(); }
 
-// Place of pinned particle k of the strand: the carried one and the strand's shift.
+// The place of pinned particle k of the strand: the carried place plus the strand's shift.
 vec3 rootShift() { return vec3(strand.roots[0].shift, strand.roots[1].shift, strand.roots[2].shift); }
 float shiftedShare(uint step) { return stepPose(step).shiftedShare; }
 // Relative to the carried origin of the groom.

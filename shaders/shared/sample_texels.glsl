@@ -1,4 +1,5 @@
-// Samples of the picture, for kernels that only read them: two to a texel, where the device sees all of them so.
+// Samples of the picture as texels, for kernels that only read them: two to a texel, if the device's texel
+// buffers can hold all of them.
 #ifndef RINGLET_SAMPLE_TEXELS
 #define RINGLET_SAMPLE_TEXELS
 

@@ -1,12 +1,12 @@
-// How much hair is before a place: two boxes of cells, each along a light, that hold the hair's area in front of
-// each cell (deep opacity maps, Yuksel and Keyser 2008, with cells of even depth); and how much of the sky is seen
-// from there.
+// How much hair is in front of a place: two boxes of cells, one along each light, with the area of hair in
+// front of each cell (deep opacity maps, Yuksel and Keyser 2008, with cells of equal depth); and how much of
+// the sky is visible from a place.
 #ifndef RINGLET_SHADOW_VOLUME
 #define RINGLET_SHADOW_VOLUME
 
 #include "shared/picture.glsl"
 
-/// Of a place, in a light's box.
+/// A place in a light's box.
 vec3 inLight(uint light, vec3 x) {
   vec4 at = vec4(x, 1);
   return vec3(dot(picture.lightAxes[3 * light], at), dot(picture.lightAxes[3 * light + 1], at),
@@ -17,7 +17,7 @@ uint shadowCell(uint light, uvec3 cell) {
 }
 uint densityCell(uvec3 cell) { return (cell.z * picture.densityCells + cell.y) * picture.densityCells + cell.x; }
 
-/// Weight of one of the eight cells about a place that is `f` beyond the first.
+/// Weight of one of the eight cells around a place at offset `f` from the first.
 float cornerWeight(vec3 f, uvec3 corner) {
   vec3 w = mix(1.0 - f, f, vec3(corner));
   return w.x * w.y * w.z;
@@ -28,7 +28,7 @@ uvec3 cornerOf(uint k) { return uvec3(k & 1, k >> 1 & 1, k >> 2); }
 layout(set = 0, binding = kBindShadows) readonly buffer Shadows { uint shadows[]; };
 layout(set = 0, binding = kBindOpenness) readonly buffer Openness { float openness[]; };
 
-/// Hairs between a light and a place, on average.
+/// Mean number of hairs between a light and a place.
 float hairsBefore(uint light, vec3 x) {
   vec3 cells = vec3(picture.shadowCells, picture.shadowCells, picture.shadowSlices);
   vec3 place = inLight(light, x);
@@ -41,7 +41,7 @@ float hairsBefore(uint light, vec3 x) {
   return sum / (picture.fixedPoint * picture.shadowCellArea);
 }
 
-/// Share of the sky that is seen.
+/// Share of the sky that is visible from x.
 float opennessAt(vec3 x) {
   float cells = float(picture.densityCells);
   vec3 place = (x - picture.densityBox.xyz) / picture.densityBox.w - 0.5;
@@ -57,7 +57,8 @@ float opennessAt(vec3 x) {
 layout(set = 0, binding = kBindShadows) buffer Shadows { uint shadows[]; };
 layout(set = 0, binding = kBindDensity) buffer Density { uint density[]; };
 
-/// Adds what stands at a place: its area across a light's way is areas[light], seen from anywhere meanArea [m^2].
+/// Adds an object at a place: its area as seen by a light is areas[light], the mean from all directions
+/// meanArea [m^2].
 void addAt(vec3 x, vec2 areas, float meanArea) {
   for (uint light = 0; light < 2; ++light) {
     vec3 place = inLight(light, x);

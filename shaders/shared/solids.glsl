@@ -1,4 +1,4 @@
-// Bodies to be drawn, as triangles of shared points.
+// Bodies that are drawn, as triangles with shared points.
 #ifndef RINGLET_SOLIDS
 #define RINGLET_SOLIDS
 

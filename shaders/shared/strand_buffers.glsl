@@ -1,9 +1,9 @@
-// The buffers and parameters of the strand_step kernels (layout/strands.h), and the taps, which only kernels compiled
-// with RINGLET_TAPS write. Kernels compiled with RINGLET_CONTACTS have contacts, those with RINGLET_SURROUNDINGS also
-// bodies, air, goals and fields. These are macros, since a buffer that a false specialization constant disables
-// stays bound, and small devices have few bindings. In kernels compiled with
-// RINGLET_HEADS the buffers of poses and of all that moves hold many heads, one behind the other, and a dispatch steps
-// some of them; they have no moving roots and no outside forces.
+// The buffers and parameters of the strand_step kernels (layout/strands.h), and the taps, which only kernels
+// compiled with RINGLET_TAPS write. Kernels compiled with RINGLET_CONTACTS have contacts, those with
+// RINGLET_SURROUNDINGS also bodies, air, goals and fields. These are macros, since a buffer that a false
+// specialization constant disables stays bound, and small devices have few bindings. In kernels compiled with
+// RINGLET_HEADS the buffers of poses and of everything that moves hold many heads, one after another, and a
+// dispatch steps some of them; they have no root poses and no external forces.
 #ifndef RINGLET_STRAND_BUFFERS
 #define RINGLET_STRAND_BUFFERS
 
@@ -18,14 +18,15 @@
 #include "shared/workgroup.glsl"
 
 layout(constant_id = kSpecIntegrator) const uint kIntegrator = kIntegratorJacobi;
-layout(constant_id = kSpecOneSmoothing) const bool kOneSmoothing = false;  // alpha_b = alpha_c: one smoothing does
+layout(constant_id = kSpecOneSmoothing) const bool kOneSmoothing = false;  // alpha_b = alpha_c: one smoothing
+                                                                           // is enough
 layout(constant_id = kSpecResidual) const bool kMeasureResidual = false;
 layout(constant_id = kSpecProfiles) const bool kProfiles = false;  // edges have factors (EdgeFactors)
-layout(constant_id = kSpecBendVaries) const bool kBendVaries = false;  // or bendFactors other than 1
+layout(constant_id = kSpecBendVaries) const bool kBendVaries = false;  // or bendFactors differ from 1
 #ifdef RINGLET_CONTACTS
-layout(constant_id = kSpecContacts) const bool kContacts = false;    // the solve is iterated with the contacts' systems
-layout(constant_id = kSpecPairs) const bool kPairs = true;       // some contacts are between pairs of contact particles
-layout(constant_id = kSpecVolume) const bool kVolume = false;     // some hair meets as a volume
+layout(constant_id = kSpecContacts) const bool kContacts = false;    // the solve is iterated, with contacts
+layout(constant_id = kSpecPairs) const bool kPairs = true;       // there are contacts of pairs
+layout(constant_id = kSpecVolume) const bool kVolume = false;     // some hair is a volume
 #else
 const bool kContacts = false;
 const bool kPairs = false;
@@ -33,7 +34,7 @@ const bool kVolume = false;
 #endif
 #ifdef RINGLET_SURROUNDINGS
 layout(constant_id = kSpecBodies) const bool kBodies = false;      // there are bodies
-layout(constant_id = kSpecAir) const bool kAir = false;         // there is air
+layout(constant_id = kSpecAir) const bool kAir = false;         // drag of the air acts
 layout(constant_id = kSpecTurbulent) const bool kTurbulent = false;  // the air is turbulent
 layout(constant_id = kSpecGoals) const bool kGoals = false;       // particles are pulled to places
 layout(constant_id = kSpecFields) const bool kFields = false;     // force fields act on particles
@@ -50,10 +51,11 @@ const bool kPulls = kGoals || kFields;
 const bool kMovingRoots = false;
 const bool kForces = false;
 #else
-layout(constant_id = kSpecMovingRoots) const bool kMovingRoots = false;  // strands have poses of their own
-layout(constant_id = kSpecForces) const bool kForces = false;            // forces from outside act on particles
+layout(constant_id = kSpecMovingRoots) const bool kMovingRoots = false;  // strands have root poses
+layout(constant_id = kSpecForces) const bool kForces = false;            // external forces act on particles
 #endif
-layout(constant_id = kSpecFalls) const bool kFalls = false;  // strands are cut off and fall: no root carries them
+layout(constant_id = kSpecFalls) const bool kFalls = false;  // the strands are fallen hair, which no root
+                                                             // carries
 
 layout(set = 0, binding = kBindPositions) buffer Positions { vec4 positions[]; };
 layout(set = 0, binding = kBindVelocities) buffer Velocities { vec4 velocities[]; };
@@ -69,29 +71,29 @@ layout(set = 0, binding = kBindStrandTexels) uniform usamplerBuffer strandTexels
 layout(set = 0, binding = kBindOutsideForceTexels) uniform usamplerBuffer forceTexels;
 layout(push_constant) uniform Parameters { StepParameters parameters; };
 layout(set = 0, binding = kBindNumbers) uniform Numbers { HairNumbers numbersOfFrame; };
-HairNumbers numbers;  // main reads them once: a driver of processors checks the bounds of every read
+HairNumbers numbers;  // main reads them once, since CPU drivers check the bounds of every read
 
-// Of what was cut off no head carries the first particle.
+// The first particle of fallen hair is not carried by the head.
 vec3 gravity() { return kFalls ? numbers.fallGravity : numbers.gravity; }
 float inertiaFactor() { return kFalls ? 1.0 : numbers.inertiaFactor; }
 uint rootCount() { return kFalls ? 1u : numbers.rootCount; }
 
 #ifdef RINGLET_HEADS
 layout(set = 0, binding = kBindHeadPoseTexels) uniform usamplerBuffer headPoseTexels;
-uint head = 0;  // this invocation's place among the heads
-// Of the n-th strand of the dispatch: which head it is of, and its place among those of one head; what lies beyond the
-// last head's is beyond theirs.
+uint head = 0;  // index of this invocation's head
+// The head of the n-th strand of the dispatch is stored in `head`; returns the strand's index among those of
+// one head. Indices beyond the last head's strands stay beyond the end.
 uint placeInHead(uint n) {
   uint strands = parameters.strandEnd - parameters.strandBegin;
   head = min(n / strands, parameters.headCount - 1);
   return n - head * strands;
 }
-// Where the head has what moves of its particle i, and the report of its strand s.
+// Index of particle i of this head in buffers of everything that moves, and of the report of its strand s.
 uint stateAt(uint i) { return head * parameters.headParticles + i; }
 uint reportAt(uint s) { return head * parameters.headStrands + s; }
 uint poseAt(uint pose) { return head * parameters.headPoses + pose; }
-// Texels on every device: a branch at each place that reads a pose takes SwiftShader's compiler, which looks at every
-// path through a loop, without end.
+// Texels are used on every device: SwiftShader's compiler examines every path through a loop, and a branch in
+// each read of a pose would make it take practically forever.
 vec4 posePart(uint pose, uint part) { return vectorAt(headPoseTexels, 3 * poseAt(pose) + part); }
 StepPose stepPose(uint pose) {
   vec4 last = posePart(pose, 2);
@@ -105,7 +107,7 @@ uint reportAt(uint s) { return s; }
 StepPose stepPose(uint pose) { return poses[pose]; }
 #endif
 
-// Position and velocity as they were when the dispatch began.
+// Position and velocity when the dispatch began.
 vec3 positionAtStart(uint i) { return (kTexels ? vectorAt(positionTexels, stateAt(i)) : positions[stateAt(i)]).xyz; }
 vec3 velocityAtStart(uint i) { return (kTexels ? vectorAt(velocityTexels, stateAt(i)) : velocities[stateAt(i)]).xyz; }
 ParticleRest particleRest(uint i) {
@@ -114,17 +116,17 @@ ParticleRest particleRest(uint i) {
   vec4 rest = vectorAt(particleTexels, 2 * i + 1);
   return ParticleRest(spring.xyz, spring.w, rest.x, rest.y, rest.z, rest.w);
 }
-// What profiles multiply the constants of an edge by (rest/edge_factors.h).
+// The factors by which profiles multiply the constants of an edge (rest/edge_factors.h).
 struct EdgeFactors {
   vec3 stiffness;  // of stretch, bending and core
   vec3 damping;
 };
-// Of particle i's edge, where there are profiles.
+// The factors of particle i's edge, if there are profiles.
 EdgeFactors edgeFactors(uint i) {
   ParticleRest record = particleRest(parameters.particleCount + i);
   return EdgeFactors(record.target, vec3(record.stretchRestLength, record.mass, record.edgeLength));
 }
-// External acceleration of particle i [m/s^2]: gravity and forces from outside.
+// Acceleration of particle i [m/s^2]: gravity and external forces.
 vec3 pullOn(uint i) {
   if (!kForces) return gravity();
   return gravity() + (kTexels ? vectorAt(forceTexels, i) : forces[i]).xyz;
@@ -185,7 +187,7 @@ uint strandAt;      // its index, device order
 
 float stepSeconds() { return numbers.seconds; }
 
-// Factor from the strand's constants to those of an edge.
+// Factor by which a strand's constants become those of an edge.
 float edgeScaleOf(float edgeLength) { return kIntegrator == kIntegratorPaper ? 1.0 : 1.0 / edgeLength; }
 
 bool isFiniteVec3(vec3 x) { return !(any(isnan(x)) || any(isinf(x))); }

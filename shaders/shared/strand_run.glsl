@@ -1,6 +1,7 @@
-// The state of the run that a lane of the strand kernel steps, and what is asked of its particles and edges. Included
-// by kernels/strand_step.comp and by each of the fragments it is made of. Every loop over a run says RINGLET_OVER_RUN.
-// No function takes a whole run: in memory it would be copied, element by element and unrolled.
+// The state of the run that a lane of the strand kernel steps, and queries about its particles and edges.
+// Included by kernels/strand_step.comp and by each of its fragments. Every loop over a run says
+// RINGLET_OVER_RUN. No function takes a whole run: in memory it would be copied, element by element and
+// unrolled.
 #ifndef RINGLET_STRAND_RUN
 #define RINGLET_STRAND_RUN
 
@@ -10,40 +11,40 @@
 #include "shared/strand_buffers.glsl"
 
 // Particle k of the run and its edge to k + 1.
-vec3 p[RUN];  // [m], from the carried origin of the groom
+vec3 p[RUN];  // [m], relative to the carried origin of the groom
 vec3 v[RUN];  // [m/s]
-// What does not change:
+// Constants:
 const int kSecond = RUN > 1 ? 1 : 0;
-uint first;            // place along the strand of particle 0 of the run
-vec4 restTarget[RUN];  // xyz rest vector along the frame's direction, normal and their cross product, w stretch rest
-                       // length
-vec4 restEdge[RUN];    // mass, longest allowed length, core edge length, edge scale
+uint first;            // index along the strand of the run's particle 0
+vec4 restTarget[RUN];  // xyz rest vector, in components along the frame's direction, its normal and their
+                       // cross product; w stretch rest length
+vec4 restEdge[RUN];    // mass, largest allowed length, core edge length, edge scale
 float inverseLength[RUN];  // 1 / the groom's edge length
-// Factors of stiffness and damping, where they vary along the strand:
+// Factors of stiffness and damping, if they vary along the strand:
 vec2 stretchVariation[RUN];
 vec2 bendVariation[RUN];
 vec2 coreVariation[RUN];
-// Of the step's start:
+// At the step's start:
 vec3 e[RUN];       // edge
-vec3 dv[RUN];      // velocity difference along it
-vec3 eHat[RUN];    // its direction
+vec3 dv[RUN];      // velocity difference of the edge's ends
+vec3 eHat[RUN];    // direction of the edge
 float eLength[RUN];
-vec3 force[RUN];   // all elastic forces of the edge
+vec3 force[RUN];   // sum of all elastic forces of the edge
 float coreScale;   // blend of the core's constants
 vec3 vStart[RUN];  // velocities before the solve
 #ifdef RINGLET_CONTACTS
-bool withContacts = false;  // this solve has the contacts' systems
+bool withContacts = false;  // this solve includes contacts
 #endif
 
-// What the report will say:
+// Values for the report:
 float maxStretch = 0.0;
 uint limitedEdges = 0;
 uint degenerateEdges = 0;
 float velocityResidual = 0.0;
 
 bool isParticle(int k) { return first + k < strand.particleCount; }
-// What was cut off begins with the particle that it was cut from, which is pinned; the edge between is void. The
-// particle is another strand's: it is neither read nor written.
+// Fallen hair begins with the particle from which it was cut off. Here that particle is pinned, and the edge
+// after it is void. It belongs to another strand, so it is neither read nor written.
 bool isCutEdge(int k) { return kFalls && first + k == 0; }
 bool isOwn(int k) { return isParticle(k) && !isCutEdge(k); }
 bool isEdge(int k) { return first + k + 1 < strand.particleCount && !isCutEdge(k); }
@@ -51,7 +52,7 @@ bool isPinned(int k) { return k < int(kMaxRootCount) && first + k < rootCount();
 bool isFree(int k) { return isParticle(k) && !isPinned(k); }
 
 float edgeLengthOf(int k) { return restEdge[k].y / numbers.maxStretch; }
-// Of stretch and core: stiffness and damping.
+// Stiffness and damping of stretch and of the core.
 vec2 stretchOf(int k) {
   vec2 spring = vec2(strand.stretchStiffness, strand.stretchDamping) * restEdge[k].w;
   return kProfiles ? spring * stretchVariation[k] : spring;
@@ -66,15 +67,15 @@ float bendDampingOf(int k) {
   return compensatedBendDamping(damping, bendStiffnessOf(k), stepSeconds());
 }
 
-// What pulls on a kilogram of particle k [m/s^2]; beyond the tip gravity.
+// Acceleration of particle k [m/s^2]; beyond the tip gravity.
 vec3 pullOnRun(int k) {
-  if (!kForces) return gravity();  // first, so that no branch on a particle is left
+  if (!kForces) return gravity();  // first, so that no branch that depends on a particle is left
   return !isParticle(k) ? gravity() : pullOn(strand.firstParticle + first + k);
 }
 
 // The elastic force of the edge that ends at the run's first particle.
 vec3 forceFromRootward() {
-  vec3 before = fromRootward(force[RUN - 1], 1);  // asked by all lanes (scan/lanes.glsl)
+  vec3 before = fromRootward(force[RUN - 1], 1);  // called by all lanes (scan/lanes.glsl)
   return lane == 0 ? vec3(0) : before;
 }
 

@@ -1,6 +1,7 @@
-// Reads records of 16 bytes as texels if the device's texel buffers are large enough, else from storage. The same bytes
-// are bound both ways; a specialization constant chooses. On lavapipe a texel costs a fifth of a storage record, which
-// it reads lane by lane. Texels are for buffers that the dispatch does not write, or reads before it writes them.
+// Reads records of 16 bytes as texels if the device's texel buffers are large enough, else from storage
+// buffers. The same bytes are bound both ways; a specialization constant chooses. On lavapipe a texel costs a
+// fifth of a storage record, which it reads lane by lane. Use texels only for buffers that the dispatch does
+// not write, or reads before it writes them.
 #ifndef RINGLET_TEXELS
 #define RINGLET_TEXELS
 

@@ -1,8 +1,7 @@
-// What is seen at each sample: the nearest. A sample holds nearness (near / distance, as bits, which order as numbers
-// do)
-// and what it is of; the greater pair wins, so that a cleared sample holds nothing and the order of drawing does not
-// count.
-// Where a device has no 64-bit atomics, one pass finds the nearness and a second what has it: the same bits.
+// Finds what is visible at each sample: the nearest. A sample holds nearness (near / distance, as bits, which
+// have the same order as the numbers) and what it belongs to. The larger pair wins, so that a cleared sample
+// holds nothing, and the order of drawing does not matter. On devices without 64-bit atomics one pass finds
+// the nearness and a second one what has it, with the same bits.
 #ifndef RINGLET_VISIBLE
 #define RINGLET_VISIBLE
 
@@ -15,8 +14,8 @@ layout(set = 0, binding = kBindSamples) buffer Samples { uint64_t samples[]; };
 
 layout(set = 0, binding = kRenderTexels + kBindSamples) uniform usamplerBuffer sampleTexels;
 
-/// Of what was seen at a sample a while ago: only ever too small, so that what is hidden by it is hidden. Most is, and
-/// is spared the atomic.
+/// The nearness at a sample some time ago. It can only be too small, so what it hides is hidden; this is true
+/// of most, and saves the atomic.
 uint nearnessBefore(uint at) {
   if (!kTexels) return uint(samples[at] >> 32);
   uvec4 two = recordAt(sampleTexels, at >> 1);

@@ -42,8 +42,8 @@ layout(set = 0, binding = kBindVolumeNumbers) uniform Numbers { VolumeNumbers nu
 
 layout(constant_id = kSpecDivided) const bool kDivided = false;  // other devices step some of the strands
 layout(constant_id = kSpecForGpu) const bool kForGpu = false;
-/// Invocations that share a node of the grid. On a GPU the longest sum at a node is what a dispatch takes; cores of a
-/// processor have enough nodes each, and lose by waiting for each other.
+/// Invocations that share a node of the grid. On a GPU a dispatch takes as long as its longest sum at a node;
+/// on a CPU device each core has enough nodes, and waiting for others would cost time.
 const uint kNodeLanes = kForGpu ? 4 : 1;
 
 /// Finds the volume particle of this invocation; false if there is none.
@@ -84,7 +84,7 @@ float countedMassOf(uint i) { return kTexels ? vectorAt(stateTexels, 3 * i + 1).
 // Between world axes and the head's frame at the step's start; pose 0 is the frame's start.
 vec3 inHeadFrame(vec3 x) { return rotate(conjugate(poses[parameters.step].rotation), x); }
 vec3 inWorld(vec3 x) { return rotate(poses[parameters.step].rotation, x); }
-/// Velocity of what the head carries rigidly, at x [m/s].
+/// Velocity at x of a rigid body that the head carries [m/s].
 vec3 carriedVelocity(vec3 x) { return displacement(poses[parameters.step + 1].turn, x) / numbers.seconds; }
 
 // The parts of the buffer of cells, one after another.
@@ -112,39 +112,39 @@ void reachTo(vec3 place) {
   }
 }
 uvec3 boxSize() { return uvec3(control.size[0], control.size[1], control.size[2]); }
-/// The same bits whether texels are read or not: drivers join multiplication and subtraction in the one and not in the
-/// other.
+/// `precise` gives the same bits with and without texels: drivers fuse multiplication and subtraction in one
+/// case and not in the other.
 vec3 placeInCells(vec3 place) {
   precise vec3 inCells = place * control.cellsPerMetre - vec3(control.low[0], control.low[1], control.low[2]);
   return inCells;
 }
-/// The cell of a place, which is in units of cells. The last cell along each axis has nodes only.
+/// The cell of a place, which is given in units of cells. The last cell along each axis only provides nodes.
 uvec3 cellInBox(vec3 inCells) { return uvec3(clamp(floor(inCells), vec3(0), vec3(boxSize()) - 2.0)); }
 uvec3 cornerOf(uvec3 cell, uint corner) { return cell + uvec3(corner & 1, corner >> 1 & 1, corner >> 2); }
 uint cellIndex(uvec3 cell) { return (cell.z * control.size[1] + cell.y) * control.size[0] + cell.x; }
 
-// If strands are divided among devices, the parts of the buffer of sums: of each node eight numbers of gather, then of
-// each two of density, high and low (maths/split_sum.glsl).
+// If strands are divided among devices, the parts of the buffer of sums: for each node eight numbers from
+// gather, then for each node two from density, high and low (maths/split_sum.glsl).
 uint nodeSum(uint node) { return 8 * node; }
 uint densitySum(uint node) { return 8 * numbers.cellCapacity + 2 * node; }
-/// The mean of a at a node [m/s], from the sums of its terms' units.
+/// The mean of a at a node [m/s], from sums of terms in integer units.
 vec3 meanRate(vec4 sum) { return sum.w > 0.0 ? numbers.mostRate * sum.xyz / sum.w : vec3(0); }
-/// The density at a node [kg/m^3], likewise.
+/// The density at a node [kg/m^3], from a sum in integer units.
 float densityFrom(float units) {
   return units / numbers.unitsPerMass * control.cellsPerMetre * control.cellsPerMetre * control.cellsPerMetre;
 }
 
-/// The gain kappa: g is kappa times the mass m o.
+/// kappa: g is kappa times the mass m o.
 float gain() { return volumeGain(numbers.drag, numbers.stiffness, numbers.seconds); }
-/// What a mass m o at x with velocity v contributes to the nodes, as VolumeParcel's rate. An a that the sums have no
-/// room for is cut, and counted. seen: control.largest, as it was when the dispatch began.
+/// The contribution to the nodes of a mass m o at x with velocity v, as VolumeParcel's rate. An a that is too
+/// large for the sums is cut off and counted. seen: control.largest when the dispatch began.
 vec4 rateFrom(float mass, vec3 v, vec3 x, vec3 s, uint seen) {
   vec3 w = inHeadFrame(v - carriedVelocity(x));
   vec3 share =
       volumeRate(numbers.drag, numbers.stiffness, numbers.seconds, w, s) / numbers.mostRate;
   vec3 size = abs(share);
   float largest = max(size.x, max(size.y, size.z));
-  // Bits of positive floats are ordered as the floats are. What was cut off has no mass.
+  // Bits of positive floats have the same order as the floats. Fallen hair has no mass here.
   if (mass > 0.0 && floatBitsToUint(largest) > seen) atomicMax(control.largest, floatBitsToUint(largest));
   if (mass > 0.0 && largest > 1.0) atomicAdd(control.cut, 1);
   float units = numbers.unitsPerGain * mass * gain();
@@ -153,7 +153,7 @@ vec4 rateFrom(float mass, vec3 v, vec3 x, vec3 s, uint seen) {
 
 uint groupsOf(uint invocations) { return (invocations + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x; }
 
-// Of shared/last_group.glsl.
+// Required by shared/last_group.glsl.
 uint addFinished() { return atomicAdd(control.finished, 1); }
 void clearFinished() { control.finished = 0; }
 

@@ -1,8 +1,8 @@
 // Sums over the parcels in the eight cells around a node of the volume's grid. Neighbouring cells along x are
-// consecutive, so the eight are four ranges; kNodeLanes invocations share a node, each with as many of these, and the
-// first adds theirs up: on a GPU the longest range of a crowded cell is what a dispatch takes. Terms are integers, so
-// that no sum depends on their order, and split (maths/split_sum.glsl). The kernel that includes this defines what is
-// summed (take).
+// consecutive, so the eight are four ranges; kNodeLanes invocations share a node, each with the same number
+// of ranges, and the first adds up the results: on a GPU a dispatch takes as long as the longest range, of a
+// crowded cell. Terms are integers, so that no sum depends on their order, and split (maths/split_sum.glsl).
+// The kernel that includes this defines what is summed (take).
 #ifndef RINGLET_VOLUME_NODES
 #define RINGLET_VOLUME_NODES
 
@@ -53,7 +53,7 @@ void sumRanges(uint node, uint first, uint end) {
 shared ivec4 sharedHigh[kNodeLanes > 1 ? kMostInvocations : 1];
 shared ivec4 sharedLow[kNodeLanes > 1 ? kMostInvocations : 1];
 
-// Called by all of the workgroup. The lanes of a node are as far apart as the group has nodes.
+// Call it with all invocations of the workgroup. The lanes of a node are as far apart as the group has nodes.
 void addLanes(uint lane, uint nodes) {
   uint at = gl_LocalInvocationID.x;
   sharedHigh[at] = high;
@@ -67,8 +67,8 @@ void addLanes(uint lane, uint nodes) {
   carry(high, low);
 }
 
-/// Sets `high` and `low` to the sums of this invocation's node; false if it has none to write. Called once, by all
-/// invocations.
+/// Sets `high` and `low` to the sums of this invocation's node; false if it has none to write. Call it once,
+/// with all invocations.
 bool sumAround(out uint node) {
   uint nodes = gl_WorkGroupSize.x / kNodeLanes;
   uint lane = gl_LocalInvocationID.x / nodes;

@@ -1,5 +1,5 @@
-// The size of workgroups, which the host sets. A file that names gl_WorkGroupSize includes this: if the size is
-// declared only further down, compilers silently take it for 1.
+// The size of workgroups, which the host sets. A file that uses gl_WorkGroupSize includes this: if the size
+// is declared only further down, compilers silently take it for 1.
 #ifndef RINGLET_WORKGROUP
 #define RINGLET_WORKGROUP
 
@@ -7,6 +7,6 @@
 
 layout(local_size_x_id = kSpecGroupSize) in;
 
-const uint kMostInvocations = 128;  // of a workgroup that every device runs
+const uint kMostInvocations = 128;  // workgroup size that every device allows
 
 #endif
