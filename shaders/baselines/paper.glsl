@@ -1,6 +1,6 @@
-// `paper`: Iben et al. 2012, section 5, its explicit loops and its springs as printed: forces n_f times a step, damping
-// n_d times a force loop, each followed by the velocity limit of section 3.1. Stable while 4 c_max T / (n_f n_d m)
-// stays below about 1.1. Included by kernels/strand_step.comp.
+// `paper`: Iben et al. 2012, section 5, with its explicit loops and its springs as printed: forces n_f times
+// a step, damping n_d times a force loop, each followed by the velocity limit of section 3.1. Stable while 4
+// c_max T / (n_f n_d m) stays below about 1.1. Included by kernels/strand_step.comp.
 #ifndef RINGLET_PAPER
 #define RINGLET_PAPER
 
@@ -12,10 +12,11 @@
 
 vec3 coreDirection[RUN];  // of the core's smoothed edges
 
-// Edge k's, with the velocity of the next lane's first particle.
+// Rate of edge k, with the velocity of the next lane's first particle.
 vec3 rateOfEdge(int k, vec3 vNext) { return (k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext) - v[k]; }
 
-// The core's smoothed edges again: the damping loops need their directions. Smoothed from the first edge, as printed.
+// Computes the core's smoothed edges again, since the damping loops need their directions. Smoothed from the
+// first edge, as printed.
 void findCoreDirections() {
   FilterState rootState = startFilter(e[0], strand.coreBeta);
   FilterState state = rootState;
@@ -30,7 +31,7 @@ void findCoreDirections() {
   }
 }
 
-// Damping of edge k, whose ends move apart at `rate`, and the smoothed edge's at `coreRate`.
+// Damping of edge k; `rate`: velocity difference of its ends, `coreRate`: that of the smoothed edge.
 vec3 dampingOfEdge(int k, vec3 rate, vec3 coreRate) {
   vec3 stretching = dot(rate, eHat[k]) * eHat[k];
   return restEdge[k].w * (strand.stretchDamping * stretching + strand.bendDamping * (rate - stretching) +
@@ -46,7 +47,7 @@ void dampOnce(float dt) {
     RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) smoothNext(state, rateOfEdge(k, vNext), strand.coreBeta);
     state = filterBeforeRun(state, rootState, strand.coreBeta);
   }
-  // Particle 0 waits for what the lane before finds of the edge to it.
+  // Particle 0 needs the force that the lane before finds for the edge to it.
   vec3 ofFirst = vec3(0);
   vec3 damping = vec3(0);
   RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {

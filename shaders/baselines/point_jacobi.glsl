@@ -1,7 +1,8 @@
-// `point_jacobi`, the particle as block: a fixed number of Jacobi iterations on the same implicit system, plain or
-// Chebyshev-accelerated. By residuals and changes: the error of an inverse in float32 then slows the iteration instead
-// of moving its end, and Chebyshev's recurrence adds up rounding of the change, not of the velocity. The baseline, and
-// a check of the strand block. Included by kernels/strand_step.comp.
+// `point_jacobi`, with the particle as block: a fixed number of Jacobi iterations on the same implicit
+// system, plain or Chebyshev-accelerated. It iterates on residuals and changes: the float32 error of an
+// inverse then slows the iteration instead of changing its limit, and Chebyshev's recurrence accumulates
+// rounding of the change and not of the velocity. It is a baseline, and a check of the strand block. Included
+// by kernels/strand_step.comp.
 #ifndef RINGLET_POINT_JACOBI
 #define RINGLET_POINT_JACOBI
 

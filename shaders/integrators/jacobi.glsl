@@ -1,5 +1,6 @@
-// `jacobi`, the strand as block: every strand's implicit system is block tridiagonal and solved exactly, by elimination
-// from the tip within a lane and a star join across lanes. Included by kernels/strand_step.comp.
+// `jacobi`, with the strand as block: each strand's implicit system is block tridiagonal and solved exactly,
+// by elimination from the tip within a lane and a star join across lanes. Included by
+// kernels/strand_step.comp.
 #ifndef RINGLET_JACOBI
 #define RINGLET_JACOBI
 
@@ -23,7 +24,7 @@ ImplicitEdge implicitEdgeOf(int k) {
   return edge;
 }
 
-// M v + T (springs + gravity + forces from outside) of particle k, from its velocity at the step's start.
+// M v + T (springs + gravity + external forces) of particle k, from its velocity at the step's start.
 vec3 rightHandSide(int k, vec3 velocity, vec3 forceBefore) {
   float m = restEdge[k].x;
   return m * (velocity + stepSeconds() * pullOnRun(k)) + stepSeconds() * (force[k] - forceBefore);
@@ -61,9 +62,9 @@ vec3 addedMomentum(int k) {
   return momentum;
 }
 
-// The right-hand side without the springs of the boundary edges: their pull belongs to f, the force across the
-// boundary. If it stayed in, both sides' free ends would race apart and the join would cancel that again, which costs
-// float32 its digits.
+// The right-hand side without the springs of the boundary edges: their pull is part of f, the force across
+// the boundary. If it were included, the free ends on both sides would fly apart and the join would cancel
+// that again, which would cost float32 its digits.
 vec3 rightHandSideOfRun(int k) {
   vec3 pull = (k + 1 < RUN ? force[k] : vec3(0)) - (k > 0 ? force[max(k - 1, 0)] : vec3(0));
   float m = restEdge[k].x;
@@ -72,7 +73,7 @@ vec3 rightHandSideOfRun(int k) {
   return sum;
 }
 
-// H of the boundary edge: A⁻¹. A void one gets any positive value; it is never used.
+// H of the boundary edge: A⁻¹. For a void edge it is any positive value, which is never used.
 Symmetric edgeCompliance(ImplicitEdge edge) {
   float across = edge.across > 0.0 ? edge.across : 1.0;
   float a = 1.0 / across;
@@ -87,7 +88,7 @@ void solveStrandBlock(vec3 pinned[3]) {
   LaneSystem system;
   system.P = massOf(RUN - 1);
   system.y = rightHandSideOfRun(RUN - 1);
-  system.transfer = mat3(isEdge(RUN - 1) ? 1.0 : 0.0);  // 0: the strand ends here, nothing pulls
+  system.transfer = mat3(isEdge(RUN - 1) ? 1.0 : 0.0);  // 0: the strand ends here, no pull
   if (kLanes > 1) {
     system.compliance = edgeCompliance(implicitEdgeOf(RUN - 1));
     system.offset = multiply(system.compliance, -stepSeconds() * force[RUN - 1]);
@@ -98,7 +99,7 @@ void solveStrandBlock(vec3 pinned[3]) {
     Elimination step = eliminateEdge(edge, system.P, system.y);
     system.P = kAddsMass ? add(system.P, massOf(k)) : addDiagonal(system.P, restEdge[k].x);
     system.y += rightHandSideOfRun(k);
-    if (isPinned(k + 1)) {  // its velocity is given, whatever pulls
+    if (isPinned(k + 1)) {  // its velocity is given, whatever pulls on it
       step.transfer = mat3(0);
       step.offset = pinned[min(k + 1, 2)];
       step.response = symmetricDiagonal(0.0);

@@ -1,5 +1,5 @@
-// The residual of the velocity solve over the strand's free particles. Included by kernels/strand_step.comp; compiled
-// in only where asked for.
+// The residual of the velocity solve over the strand's free particles. Included by kernels/strand_step.comp;
+// compiled in only if it is asked for.
 #ifndef RINGLET_RESIDUAL
 #define RINGLET_RESIDUAL
 

@@ -1,18 +1,19 @@
-// `jacobi` for one or two lanes and hair by itself or as a volume: the same exact solve, in two lanes from both ends
-// of the strand at once, lane 0 from the root and lane 1 from the tip, met at the edge between them; in one lane from
-// the root to the tip and back. No lane waits for what lies beyond its run, so no transfers and no compliances of
-// whole runs are needed: 2/5 of the work of the elimination with a star join (integrators/jacobi.glsl). With four
-// lanes, the inner two a turn after the outer, the work that is done twice would cost as much as the star join.
-// Mirrored by reference/strand_solve.h. Included by kernels/strand_step.comp.
+// `jacobi` for one or two lanes, for hair alone or as a volume: the same exact solve. With two lanes it
+// starts from both ends of the strand at once, lane 0 from the root and lane 1 from the tip, and they meet at
+// the edge between them; with one lane it goes from the root to the tip and back. No lane waits for what lies
+// beyond its run, so no transfers and compliances of whole runs are needed: 2/5 of the work of the
+// elimination with a star join (integrators/jacobi.glsl). With four lanes, the inner two starting after the
+// outer ones, the work done twice would cost as much as the star join. Mirrored by reference/strand_solve.h.
+// Included by kernels/strand_step.comp.
 //
 //   root  o-o-o-o   o-o-o-o  tip
 //         lane 0 -> <- lane 1
 //
-// A particle is seen from the other end as its velocity without further pull, and how it gives way to one (its
-// mobility):
+// From the other end, a particle is described by its velocity without further pull, c, and its mobility C,
+// its response to a pull:
 //   v = c + C f.   Over an edge of compliance A⁻¹ to a particle of mass m and right-hand side r:
 //   S = C + A⁻¹,  E = (1 + m S)⁻¹,  C' = E S,  c' = E (c + S r);     back:  f = r + f' - m v'
-// All sums of positive matrices: stiff edges cost no digits.
+// All sums are of positive matrices, so stiff edges cost no digits.
 #ifndef RINGLET_TWO_WAY
 #define RINGLET_TWO_WAY
 
@@ -24,11 +25,11 @@
 #include "bodies/run_pulls.glsl"
 #endif
 
-// What a volume adds to a mass is a number, as the mass is, and so is what a goal or a field adds.
+// The terms of a volume, of goals and of fields add a number to the mass, which is a number too.
 const bool kAddsMatrix = kContacts && kPairs || kAir || kBodies;
 const bool kFromEnds = kLanes <= 2 && !kAddsMatrix && !kBendVaries;
 
-// What the volume adds to particle k of the run: xyz to its right-hand side, w to its mass.
+// The terms that the volume adds to particle k of the run: xyz to its right-hand side, w to its mass.
 vec4 volumeAddedToRun(int k) {
 #ifdef RINGLET_CONTACTS
   if (kVolume && meetsContacts(k)) return volumeAddedTo(strand.firstParticle + first + k);
@@ -36,7 +37,8 @@ vec4 volumeAddedToRun(int k) {
   return vec4(0);
 }
 
-// What goals and fields add, likewise, to particle j where lanes go from the root, or k; each in registers.
+// The terms of goals and fields, likewise, for particle j if the lane goes from the root, else for k; both
+// indices are constants in registers.
 vec4 pullAddedToRun(int j, int k) {
 #ifdef RINGLET_SURROUNDINGS
   if (kPulls) return lane == 0 ? pulled[j] : pulled[k];
@@ -44,7 +46,7 @@ vec4 pullAddedToRun(int j, int k) {
   return vec4(0);
 }
 
-// What the goal of an edge adds to its matrix, of edge j where lanes go from the root, or k.
+// The term that goals of edges add to the matrix of edge j if the lane goes from the root, else of k.
 float goalAddedToEdge(int j, int k) {
 #ifdef RINGLET_SURROUNDINGS
   if (kGoals && kGoalShape) return lane == 0 ? goalAcross[j] : goalAcross[k];
@@ -52,7 +54,7 @@ float goalAddedToEdge(int j, int k) {
   return 0.0;
 }
 
-// A⁻¹ of an edge of this direction and length, with what its goal adds; void ones are never used.
+// A⁻¹ of an edge of this direction and length, with the term of its goal; that of void edges is never used.
 Symmetric complianceOf(vec3 direction, float edgeLength, float added) {
   ImplicitEdge one = implicitEdge(direction, stepSeconds(), strand.stretchStiffness, strand.stretchDamping,
       strand.bendStiffness,
@@ -62,10 +64,11 @@ Symmetric complianceOf(vec3 direction, float edgeLength, float added) {
   return addOuter(symmetricDiagonal(a), -a * (one.along / (one.along + across)), direction);
 }
 
-// To the particle before it, the way this lane goes.
+// Whether an edge links particle j to the one before it in this lane's direction.
 bool isLinked(int j) { return j > 0 && (lane == 0 ? isEdge(j - 1) : isEdge(RUN - 1 - j)); }
 
-// Across the edge between the lanes, from what their last particles' mobilities are; each lane's own.
+// The force across the edge between the lanes, from the mobilities of their last particles; each lane gets
+// its own side's.
 vec3 forceBetweenLanes(Symmetric C, vec3 c) {
   Symmetric apart = add(C, complianceOf(eHat[RUN - 1], edgeLengthOf(RUN - 1), goalAddedToEdge(RUN - 1, RUN - 1)));
   apart = add(apart, Symmetric(fromTipward(C.d, 1), fromTipward(C.o, 1)));
@@ -77,7 +80,7 @@ vec3 forceBetweenLanes(Symmetric C, vec3 c) {
 
 void solveFromEnds(vec3 pinned[3]) {
   bool fromRoot = lane == 0;
-  // In the order this lane goes.
+  // Arrays are in this lane's order.
   float mass[RUN];
   vec3 r[RUN];
   Symmetric C[RUN];

@@ -1,4 +1,5 @@
-// With the time taper: checks that the lists of this step had room, and those of its contacts; one invocation.
+// With the time taper: checks that the lists of this step and the lists of its contacts had room; one
+// invocation.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"

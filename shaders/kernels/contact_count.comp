@@ -1,6 +1,6 @@
-// The grid, 1 of 4: counts the contact particles in each bucket and gives each a rank in its bucket; the order of ranks
-// is arbitrary. If some hair meets as a volume, contact particles with no possible partner nearby get empty lists and
-// enter no bucket.
+// The grid, 1 of 4: counts the contact particles in each bucket and gives each a rank in its bucket; the
+// order of ranks is arbitrary. If some hair is a volume, contact particles without a possible partner nearby
+// get empty lists and are put into no bucket.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"

@@ -20,7 +20,7 @@ void append(ContactForce force, ContactLife life) {
     block = atomicAdd(control.liveBlocks, 1);
     if (count / kLiveBlock < numbers.mostLiveBlocks) liveLists[list + 1 + count / kLiveBlock] = block;
   }
-  // Where there is no room, entries are still counted, so that the host knows how many are needed.
+  // Without room, entries are still counted, so that the host knows how many are needed.
   if (block < numbers.liveBlockCount) {
     uint entry = block * kLiveBlock + count % kLiveBlock;
     forces[entry] = force;
@@ -29,8 +29,8 @@ void append(ContactForce force, ContactLife life) {
   ++count;
 }
 
-// Advances a contact that touches, or did. before: its life before this step; other: the other's guessed velocity and
-// radius; otherX, otherV: its place and v^0.
+// Advances a contact that touches, or did. before: its life before this step; other: the other particle's
+// guessed velocity and radius; otherX, otherV: its place and v^0.
 void liveOn(ContactLife before, vec4 other, vec3 otherX, vec3 otherV) {
   float r0 = before.restLength;
   ContactMeeting meeting = contactMeeting(x - otherX, v - otherV, isBefore(rest.particle, before.particle));
@@ -59,7 +59,7 @@ void liveOn(ContactLife before[kAtOnce], uint those) {
     if (j < those) liveOn(before[j], others[j], places[j], speeds[j]);
 }
 
-uint listBefore;  // the list of the last step's contacts, and how many they are
+uint listBefore;  // the list of the last step's contacts, and their number
 uint countBefore;
 ContactLife lifeBefore(uint j) { return lifeAt(lifeEntry(control.parity ^ 1, forceEntry(listBefore, j))); }
 
@@ -104,7 +104,7 @@ void main() {
   countBefore = liveLists[listBefore];
 
   // Contacts of the last step.
-  uint made = 0;  // turns that the loops made; `wanted` counts those they should make
+  uint made = 0;  // turns that the loops made; `wanted` counts the turns they should make
   uint wanted = (countBefore + kAtOnce - 1) / kAtOnce;
   if (countBefore > 0) do {
     uint first = made * kAtOnce;
@@ -113,7 +113,7 @@ void main() {
     liveOn(some, countBefore - first);
   } while (++made * kAtOnce < countBefore);
 
-  // Neighbours that touch (contact_touch.comp) and are no contacts yet.
+  // Neighbours that touch (contact_touch.comp) and are not contacts yet.
   uint neighbourList = listOf(c);
   uint blockCount = (lists[neighbourList] + kListBlock - 1) / kListBlock;
   wanted += blockCount;

@@ -1,9 +1,10 @@
-// Measures the largest distance that a contact particle has moved since the lists were made, and the largest speed, by
-// which the last workgroup decides whether the lists are still valid; and makes the guess from which the solve starts
-// (warm start). Contacts change little from step to step, so this step is expected to change v^0 by most of what the
-// last one did. Reads positions, v^0 and the velocities at the end of the last step; writes the control and the
-// guesses. If strands are divided among devices, those of this one are measured before the others are known, in a
-// dispatch that decides nothing. Mirrored by reference/kernels/contact_step.h.
+// Measures the largest distance that a contact particle has moved since the lists were made, and the largest
+// speed; from these the last workgroup decides whether the lists are still valid. Also makes the guess from
+// which the solve starts (warm start): contacts change little from step to step, so this step is expected to
+// change v^0 by most of what the last one did. Reads positions, v^0 and the velocities at the end of the last
+// step; writes the control and the guesses. If strands are divided among devices, those of this device are
+// measured before the others are known, in a dispatch that decides nothing. Mirrored by
+// reference/kernels/contact_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"
@@ -18,7 +19,7 @@ void enter(uint place, uint group) {
   if (hasOthers(groups, group)) atomicMax(grid[place], kSeveralGroups);
 }
 
-// Of this invocation's particles. NaN counts as large.
+// Largest values over this invocation's particles. NaN counts as large.
 float motion = 0.0;
 float speed = 0.0;
 float larger(float a, float b) { return max(a, b < 1e30 ? b : 1e30); }
@@ -46,8 +47,8 @@ void measureAll() {
   if (control.isHalted != 0) return;
   uint invocations = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
   for (uint c = gl_GlobalInvocationID.x; c < numbers.contactCount; c += invocations) measure(c);
-  // The bits of numbers >= 0 order as the numbers do. Most are below the maximum so far, and a read costs less than an
-  // atomic.
+  // The bits of numbers >= 0 have the same order as the numbers. Most values are below the maximum so far,
+  // and a read costs less than an atomic.
   if (floatBitsToUint(motion) > control.motion) atomicMax(control.motion, floatBitsToUint(motion));
   if (floatBitsToUint(speed) > control.speed) atomicMax(control.speed, floatBitsToUint(speed));
 }

@@ -1,6 +1,6 @@
-// Makes the lists: the pairs of each contact particle, from the 27 cells around it, in the order of cells and, within a
-// cell, of contact particles. Pairs of strands that may not touch are left out. Where a list finds no room, the frame
-// stops (endLists) until the host has enlarged the buffers.
+// Makes the lists: the pairs of each contact particle, from the 27 cells around it, in the order of cells
+// and, within a cell, of contact particles. Pairs of strands that may not touch are left out. If a list has
+// no room, the frame halts (endLists) until the host has enlarged the buffers.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_search.glsl"
@@ -14,12 +14,12 @@ void append(ContactPair pair) {
     block = atomicAdd(control.blocks, 1);
     if (count / kListBlock < numbers.mostBlocks) lists[listedBlock(list, count / kListBlock)] = block;
   }
-  // Where there is no room, pairs are still counted, so that the host knows how many are needed.
+  // Without room, pairs are still counted, so that the host knows how many are needed.
   if (block < numbers.blockCount) pairs[block * kListBlock + count % kListBlock] = pair;
   ++count;
 }
 
-// A pair is listed for its distance, or for its distance and the speed of its approach.
+// A pair is listed because of its distance alone, or of its distance and the speed of its approach.
 bool isSought(vec3 otherPosition, vec3 otherVelocity, uint otherParticle, float r0) {
   precise vec3 apart = x - otherPosition;
   precise float squared = apart.x * apart.x + apart.y * apart.y + apart.z * apart.z;

@@ -1,6 +1,7 @@
-// Checks for a sample of contact particles, another in each step, whether the lists still hold all pairs that touch:
-// counts the pairs that the grid finds and those of them that are not in the particle's list. The last workgroup judges
-// by them whether new lists are due. The reference has no counterpart: it finds all pairs in every step.
+// Checks for a sample of contact particles, another one in each step, whether the lists still contain all
+// pairs that touch: counts the pairs found in the grid, and those of them that are not in the particle's
+// list. From these counts the last workgroup decides whether new lists are due. The reference has no
+// counterpart: it finds all pairs in every step.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_decision.glsl"
@@ -16,10 +17,10 @@ bool isSought(vec3 otherPosition, vec3 otherVelocity, uint otherParticle, float 
 
 void take(ContactRest other, float R, float r0) { ++found; }
 
-// What the lanes of a particle found, less what its list has of that.
+// Pairs in the list of this particle that touch, as counted by its lanes.
 uint listed = 0;
 
-// The lanes of a particle share the rows of cells and the places of the list.
+// The lanes of a particle share the rows of cells and the entries of the list.
 void lookAt(uint c, uint lane) {
   ContactRest self = contactOf(c);
   int rows = kSearchRows / int(kSampleLanes);
@@ -39,7 +40,8 @@ void lookAt(uint c, uint lane) {
 
 shared uvec2 sharedCounts[kSampleLanes > 1 ? kMostInvocations : 1];
 
-// Called by all of the workgroup. The lanes of a particle are as far apart as the group has particles.
+// Call it with all invocations of the workgroup. The lanes of a particle are as far apart as the group has
+// particles.
 void addLanes(uint lane, uint particles) {
   uint at = gl_LocalInvocationID.x;
   sharedCounts[at] = uvec2(found, listed);

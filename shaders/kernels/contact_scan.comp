@@ -15,7 +15,7 @@ uint exchangeSum(uint block, uint sum) { return atomicExchange(grid[gridSum(bloc
 void main() {
   uint all;
   if (!setStarts(all)) return;
-  // The bucket beyond the last starts after all.
+  // The bucket after the last one starts after all entries.
   grid[gridSum(gl_NumWorkGroups.x)] = all;
   grid[gridStart(numbers.bucketCount)] = 0;
 }

@@ -1,7 +1,8 @@
-// Finds which listed pairs act on each other and which touch, as bits beside the blocks of each list, and collects the
-// contact particles that have contacts or had some: later kernels of the step run for these only, since most contact
-// particles have listed neighbours but no contact. With the distance taper, also computes the terms that contacts add
-// to the first iteration, from guessed velocities. Mirrored by reference/kernels/contact_step.h.
+// Finds which listed pairs act on each other and which touch, stored as bits beside the blocks of each list;
+// and collects the contact particles that have contacts or had some. Later kernels of the step run for these
+// only, since most contact particles have listed neighbours but no contact. With the distance taper, also
+// computes the terms that contacts add to the first iteration, from guessed velocities. Mirrored by
+// reference/kernels/contact_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "equations/contact_spring.glsl"
@@ -11,8 +12,9 @@ uint particle;  // of this invocation
 vec3 x;
 vec3 v;
 
-// What depends on the taper: whether the step's lists are all there (checkLists), whether a contact particle had
-// contacts in the last step (metBefore), whether it has some now (setMeets), and the terms of the first iteration.
+// Functions that depend on the taper: whether the step's lists are complete (checkLists), whether a contact
+// particle had contacts in the last step (metBefore), whether it has some now (setMeets), and the terms of
+// the first iteration.
 #ifdef RINGLET_TAPER_TIME
 const uint kMeeting = ~((1u << kListBlock) - 1);  // the bits that mean a contact
 bool metBefore(uint c) {
@@ -39,7 +41,7 @@ void addTerms(ContactPair pair, ContactMeeting meeting, bool touching) {
 void setTerms(ContactRest rest) { setSystem(rest, terms); }
 #endif
 
-// Clears the groups of cells and regions, which the next step writes anew.
+// Clears the groups of cells and regions, which the next step sets anew.
 void emptyCells(uint c) {
   for (uint bucket = c; bucket < numbers.bucketCount; bucket += numbers.contactCount) {
     grid[cellGroups(bucket)] = 0;
@@ -47,7 +49,7 @@ void emptyCells(uint c) {
   }
 }
 
-/// Looks at a pair, if there is one. Returns its bits as if it were the first of its block.
+/// Tests a pair, if there is one. Returns its bits as if it were the first of its block.
 uint look(ContactPair pair, vec3 otherX, vec3 otherV, bool isThere) {
   ContactMeeting meeting = contactMeeting(x - otherX, v - otherV, isBefore(particle, pair.particle));
   bool touching = isThere && isTouching(meeting, pair.restLength, numbers);
@@ -59,7 +61,7 @@ uint look(ContactPair pair, vec3 otherX, vec3 otherV, bool isThere) {
 void main() {
   if (control.isHalted != 0) return;
   uint c = gl_GlobalInvocationID.x;
-  if (c == 0) checkLists();  // others that see it halted already would return for want of room, too
+  if (c == 0) checkLists();  // invocations that see it halted already would return for lack of room too
   if (!listsHadRoom() || c >= numbers.contactCount) return;
   if (kInGroups) emptyCells(c);
   ContactRest rest = contactOf(c);

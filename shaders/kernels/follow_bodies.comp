@@ -1,4 +1,4 @@
-// Points of hairs near bodies, listed by follow_hairs.comp in any order, are pushed out of them. Mirrored by
+// Pushes points of hairs out of bodies; follow_hairs.comp lists those near bodies, in any order. Mirrored by
 // reference/follow_guide.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require

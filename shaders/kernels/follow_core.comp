@@ -1,6 +1,6 @@
-// The core of every guide at each of its particles: a weighted sum of particles about it, which
-// src/ringlet/follow/core_weights.h
-// makes of measure/core.h. Mirrored by reference/follow_guide.h.
+// The core of every guide at each of its particles: a weighted sum of neighbouring particles;
+// src/ringlet/follow/core_weights.h derives the weights from measure/core.h. Mirrored by
+// reference/follow_guide.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/follow_buffers.glsl"
@@ -13,7 +13,8 @@ void main() {
   CoreRow row = coreRow(i);
   uint last = parameters.particles - 1;
   vec3 sum = vec3(0);
-  // Lanes leave at different turns: what is read after the loop is carried by it, which a do-while would not do.
+  // Lanes leave at different turns: a value that is read after the loop must be carried by it, which does not
+  // hold for a do-while.
   for (uint k = 0; k < row.recordCount; ++k) {
     vec4 weights = coreWeight(row.firstRecord + k);
     uint first = row.firstParticle + 4 * k;

@@ -1,5 +1,5 @@
-// The frames along every guide's core, carried from the root without twist, and the guide's curl seen from them.
-// Mirrored by reference/follow_guide.h.
+// The frames along every guide's core, transported from the root without twist, and the guide's curl relative
+// to them. Mirrored by reference/follow_guide.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "equations/frame.glsl"

@@ -1,6 +1,6 @@
-// Every point of every hair that follows a guide. An invocation a point, as many a hair as the longest guide has
-// particles. Compiled with RINGLET_AMONG_BODIES it also lists those near bodies, for follow_bodies.comp. Mirrored by
-// reference/follow_guide.h.
+// Every point of every hair that follows a guide: an invocation for each point, with as many points in a hair
+// as the longest guide has particles. Compiled with RINGLET_AMONG_BODIES it also lists points near bodies,
+// for follow_bodies.comp. Mirrored by reference/follow_guide.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/hair_on_guide.glsl"

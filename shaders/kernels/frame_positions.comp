@@ -1,5 +1,6 @@
-// Writes the positions of a chunk's particles to the host, each to its place in the frame. Numbers are moved as
-// integers: a driver may flush floats near 0. The reference has no counterpart: its positions are in the groom's order.
+// Writes the positions of a chunk's particles to host memory, each to its place in the frame. Floats are
+// moved as integers, since a driver may flush those near 0. The reference has no counterpart: its positions
+// are in groom order.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "layout/frame.h"

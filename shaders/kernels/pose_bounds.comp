@@ -1,5 +1,5 @@
-// The box about all points: each invocation looks at every so many of them. Floats are compared as whole numbers in
-// the same order: the bits of those above 0 come after all of those below, whose bits run backwards.
+// The bounding box of all points; each invocation takes every n-th of them. Floats are compared as integers
+// with the same order: bits of positive floats are put above those of negative ones, whose order is reversed.
 #version 450
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,5 +1,6 @@
-// Particles of hair that is simulated on this device, put where what follows or draws it wants them. An invocation a
-// particle. Those that the head carries are turned with it.
+// Copies particles of hair that is simulated on this device to where the hair that follows them or the
+// renderer needs them; an invocation for each particle. Particles are turned with the head if isTurned is
+// set.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "maths/quaternion.glsl"

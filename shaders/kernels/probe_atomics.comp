@@ -1,6 +1,6 @@
 // Probe of `ringlet conform`: atomics from all invocations at once.
-// results, zeros before: [0] how many invocations, [1] the sum of their values, [2] the largest, [3] unused; then, for
-// each place an invocation got by counting itself in [0], how many got it.
+// results, initially zeros: [0] number of invocations, [1] sum of their values, [2] the largest, [3] unused;
+// then, for each place that an invocation got by counting itself in [0], how many invocations got it.
 #version 450
 
 layout(local_size_x_id = 0) in;

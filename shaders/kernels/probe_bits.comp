@@ -1,5 +1,5 @@
-// Probe of `ringlet conform`: small integers, which are denormal as floats, moved as the components of a vec4 and of a
-// uvec4. Each record comes out in reverse order where its number is odd.
+// Probe of `ringlet conform`: small integers, which are denormal as floats, moved as components of a vec4 and
+// of a uvec4. Records with an odd index come out in reverse order.
 #version 450
 
 layout(local_size_x_id = 0) in;

@@ -1,10 +1,10 @@
-// Probe of `ringlet conform`: what a loop leaves behind where invocations make different numbers of turns. No kernel of
-// Ringlet uses the forms 0 and 2, with which drivers have been wrong; all rely on the forms 1 and 3.
+// Probe of `ringlet conform`: values after a loop in which invocations make different numbers of turns. No
+// kernel of Ringlet uses forms 0 and 2, which some drivers get wrong; all rely on forms 1 and 3.
 // results, n being the number of invocations, four rows of n:
 //   0  a sum over loads, added by ?:                     (SwiftShader: lanes that are done add 1)
 //   1  the same, added in an if
-//   2  the last value of a loop within a loop, made anew in every turn
-//   3  the same, carried from turn to turn, and taken in an if
+//   2  the last value of a nested loop, computed anew in every turn
+//   3  the same, carried from turn to turn, and set in an if
 #version 450
 
 layout(local_size_x_id = 0) in;
@@ -30,7 +30,7 @@ void main() {
   } while (++turn < turns);
   results[n + i] = sum;
 
-  // The largest value of some neighbours, until it is large enough.
+  // The largest value of some neighbours, repeated until it is large enough.
   uint last;
   turn = 0;
   do {

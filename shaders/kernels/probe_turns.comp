@@ -1,5 +1,6 @@
 // Probe of `ringlet conform`: a loop of many turns. lavapipe 22.3 ends all loops of an invocation after 65,535 turns.
-// results[i]: a linear congruential generator, begun with the invocation's number, after so many turns.
+// results[i]: state of a linear congruential generator, started from the invocation's index, after this many
+// turns.
 #version 450
 
 layout(local_size_x_id = 0) in;

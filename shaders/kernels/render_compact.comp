@@ -1,5 +1,6 @@
-// What is seen in each pixel: samples of hair go into a list, to be shaded; where bodies are seen, the pixel and one of
-// their triangles go into another. In a preview one sample of a pixel's hair stands for all of them.
+// Collects what is visible in each pixel: samples of hair go into a list, to be shaded; pixels in which
+// bodies are visible go into another, each with one of their triangles. In a preview one sample of a pixel's
+// hair stands for all.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/picture.glsl"
@@ -18,10 +19,10 @@ void main() {
   uint first = row * side * stride + (pixel - row * picture.width) * side;
   uint end = first + side * stride;
   uint hairs = 0;
-  uint solid = 0;    // and the triangle there,
-  uint solidAt = 0;  // at this sample of the pixel
+  uint solid = 0;    // a visible triangle
+  uint solidAt = 0;  // its sample within the pixel
   uint marks = 0;    // a bit for each sample of hair
-  uint index = 0;      // the sample
+  uint index = 0;      // index of the sample
   for (uint at = first; at < end; at += stride) {
     for (uint k = 0; k < side; ++k) {
       uint what = sampleAt(at + k).x;
@@ -48,7 +49,7 @@ void main() {
     atomicAdd(counts.indirectHairs[0], (place + hairs + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x -
                                            (place + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x);
   }
-  // The last sample has the lowest bit. A loop with as many turns as there are samples of hair: none for most pixels.
+  // The last sample has the lowest bit. The loop has one turn for each sample of hair: none for most pixels.
   while (marks != 0) {
     uint k = uint(findMSB(marks));
     marks ^= 1u << k;

@@ -1,7 +1,7 @@
-// The light of each pixel: the mean of all moments, of the pixel itself and its neighbours. Samples of one pixel alone
-// would be a box, which hairs thinner than a pixel flicker behind.
+// Filters the light of each pixel, averaged over all moments, with that of its neighbours. A box filter of a
+// pixel's own samples would make hairs thinner than a pixel flicker.
 //
-//   kEdge^2      kEdge kCentre  kEdge^2        kCentre = 1 - 2 kEdge; beyond the picture's edge its own pixels count
+//   kEdge^2      kEdge kCentre  kEdge^2        kCentre = 1 - 2 kEdge; outside the picture edge pixels count
 //   kEdge kCentre   kCentre^2   kEdge kCentre
 //   kEdge^2      kEdge kCentre  kEdge^2
 #version 450

@@ -1,6 +1,7 @@
-// Hairs, segment by segment, onto the samples of a picture. A segment is walked along its longer axis; a sample it
-// passes is hit with the hair's coverage as chance, drawn from hair and segment, so that the noise goes with the
-// hair. Hits are spread evenly along the segment: work goes with the area that is covered, not with length.
+// Draws hairs, segment by segment, onto the samples of a picture. A segment is traversed along its longer
+// axis; a sample on the way is hit with the hair's coverage as probability, drawn from hair and segment, so
+// that the noise moves with the hair. Hits are spread evenly along the segment, so that the work is
+// proportional to the covered area and not to the length.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/drawn_hairs.glsl"
@@ -15,8 +16,8 @@ void main() {
   vec3 b = inView(hairPoint(p + 1));
   if (min(a.z, b.z) < picture.near) return;
 
-  // Along the longer axis and across it; the band's samples are from low to high. All depends on the whole picture, so
-  // that bands meet without a seam.
+  // Coordinates along the longer axis and across it; the band has samples from low to high. All values depend
+  // on the whole picture, so that bands meet without a seam.
   vec2 from = inSamples(a);
   vec2 to = inSamples(b);
   vec2 low = vec2(0, bandTop());
@@ -32,7 +33,7 @@ void main() {
   float share = (float(i) + 0.5) / float(hair.pointCount - 1);
   float across = 2.0 * radiusAt(hair, share) * picture.focus * float(picture.side) / (0.5 * (a.z + b.z));
   float width = across * length(to - from) / max(abs(run), 1e-6);  // along the shorter axis [samples]
-  // A hair thinner than a sample hits every so many steps, one that is wider all of them.
+  // A hair thinner than a sample hits only some steps, evenly spaced; a wider one hits all.
   float rate = min(width, 1.0);
   uint seed = mixed(record.w * 747796405u + 1u);
   float phase = fract(unitOf(seed) + float(i) * 0.618034);
@@ -44,7 +45,7 @@ void main() {
   float nearnessA = picture.near / a.z;
   float nearnessB = picture.near / b.z;
   uint stride = picture.side * picture.width;
-  // A hit at a time, a row of it at a time: lanes go on whatever the others' rows.
+  // Each turn draws one row of one hit, so that lanes do not wait for those with more rows.
   float q = 0.0;
   if (m < hits) do {
     uint random = seed + uint(m) * 0x9e3779b9u;

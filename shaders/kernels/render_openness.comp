@@ -1,5 +1,5 @@
-// Share of the sky seen from each cell: the way out in 14 directions, through the hair about it. Steps grow with
-// distance.
+// The share of the sky that is visible from each cell: the attenuation in 14 directions, through the hair
+// around it. Steps grow with distance.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/picture.glsl"
@@ -7,10 +7,10 @@
 layout(set = 0, binding = kBindDensity) readonly buffer Density { uint density[]; };
 layout(set = 0, binding = kBindOpenness) writeonly buffer Openness { float openness[]; };
 
-const float kFirst = 0.7;   // [cells]
-const float kGrows = 1.35;  // from step to step
+const float kFirst = 0.7;   // first step [cells]
+const float kGrows = 1.35;  // factor from step to step
 const int kSteps = 7;
-const float kDims = 0.35;   // of the sky behind a hair
+const float kDims = 0.35;   // attenuation of the sky by a hair
 
 void main() {
   uint n = picture.densityCells;
@@ -22,7 +22,7 @@ void main() {
   float most = 0.0;
   int k = 0;
   do {
-    // The axes, both ways, and the diagonals of the cube.
+    // The axes in both directions, and the diagonals of the cube.
     vec3 axis = vec3(k % 3 == 0, k % 3 == 1, k % 3 == 2) * (k < 3 ? 1.0 : -1.0);
     vec3 diagonal = 0.57735027 * (2.0 * vec3(k & 1, k >> 1 & 1, k >> 2 & 1) - 1.0);
     vec3 way = k < 6 ? axis : diagonal;

@@ -1,5 +1,5 @@
-// The mean of each pixel's samples, added to the pictures before: one a moment, where there is motion blur. In a
-// preview it is shown at once, and all hair of a pixel is of the colour of what is shaded of it.
+// Averages each pixel's samples and adds the result to the pictures before: one for each moment, with motion
+// blur. A preview is shown at once, and all hair of a pixel has the colour of the sample that was shaded.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/picture.glsl"
@@ -46,7 +46,7 @@ void main() {
   hairs += unshaded;
 #endif
   uvec2 packed = solidColours[pixel];
-  vec2 blue = unpackHalf2x16(packed.y);  // and the share that is covered
+  vec2 blue = unpackHalf2x16(packed.y);  // x: blue; y: the share that is covered
   y += band.firstRow;
   vec2 place = (vec2(x, y) + 0.5) / vec2(picture.width, picture.height) - vec2(0.45, 0.42);
   vec3 back = mix(picture.backColours[1].rgb, picture.backColours[0].rgb, exp(-2.2 * dot(place, place) * 1.5));

@@ -1,5 +1,5 @@
-// Colour of every sample in which hair is seen. Where on its segment a sample is follows from where the two lie in the
-// picture.
+// Shades every sample in which hair is visible. The position of a sample on its segment follows from the
+// positions of both in the picture.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/drawn_hairs.glsl"

@@ -1,4 +1,4 @@
-// Colour of every pixel in which a body is seen, at one of the samples in which it is.
+// Shades every pixel in which a body is visible, at one of the samples that show it.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/lighting.glsl"
@@ -17,7 +17,7 @@ void main() {
   vec3 b = solidPosition(corners.y).xyz;
   vec3 c = solidPosition(corners.z).xyz;
 
-  // The way of light through the sample, to where it meets the triangle.
+  // The ray through the sample, up to its intersection with the triangle.
   uint pixel = here.x >> 4;
   uint index = here.x & 15u;
   uint y = pixel / picture.width;

@@ -1,5 +1,5 @@
-// Hair's area into the boxes of the lights and of the sky: every so many hairs, for as many. Sums of integers, the
-// same in any order.
+// Adds the area of hair to the boxes of the lights and of the sky: every n-th hair, with weight n. Sums of
+// integers, which do not depend on the order.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/drawn_hairs.glsl"

@@ -1,5 +1,5 @@
-// Surfaces of bodies into the boxes of the lights and of the sky, as patches. A surface lets
-// nothing through: it counts for many hairs.
+// Adds the surfaces of bodies, as patches, to the boxes of the lights and of the sky. A surface is opaque: it
+// counts as many hairs.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/shadow_volume.glsl"
@@ -8,7 +8,7 @@
 const float kHairs = 8.0;
 
 void main() {
-  // In this kernel a band is of points: the patches, after those that are seen.
+  // In this kernel the band is a range of points: the patches, which follow the points that are drawn.
   if (gl_GlobalInvocationID.x >= band.rowCount) return;
   uint i = band.firstRow + gl_GlobalInvocationID.x;
   vec4 at = solidPosition(i);

@@ -1,4 +1,4 @@
-// Along each column of a light's box: from the area in each cell to the area before its middle.
+// Along each column of a light's box: converts the area in each cell to the area in front of its middle.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/shadow_volume.glsl"

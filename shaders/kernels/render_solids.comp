@@ -1,11 +1,11 @@
-// Triangles of bodies onto the samples of a picture. An invocation has one triangle and kSolidRows rows of samples, and
-// in each row the samples between the triangle's edges.
+// Draws triangles of bodies onto the samples of a picture. An invocation has one triangle and kSolidRows rows
+// of samples, and in each row fills the samples between the triangle's edges.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/solids.glsl"
 #include "shared/visible.glsl"
 
-// Where the row of that height cuts the way from a to b: widens the range (least, greatest).
+// Where a row at this height intersects the line from a to b: widens the range (least, greatest).
 vec2 cutBy(vec2 range, vec2 a, vec2 b, float height) {
   if ((a.y <= height) == (b.y <= height)) return range;
   float x = a.x + (b.x - a.x) * ((height - a.y) / (b.y - a.y));

@@ -1,5 +1,5 @@
-// Each hair's pigment says how far the longest edge of its strand is stretched: 0 at rest, 1 at the most that is told
-// apart.
+// Sets each hair's pigment by how far the longest edge of its strand is stretched: 0 at rest, 1 at the
+// scale's end.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "layout/picture.h"

@@ -1,4 +1,4 @@
-// The light of pixels as a screen shows it.
+// Converts the light of pixels to display values.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/picture.glsl"

@@ -1,12 +1,13 @@
-// The strand kernel, lanes x run: all outer steps of a dispatch for one strand; buffers are touched at its start and
-// end only. Model: Iben et al. 2012, sections 3 and 5, with the choices of reference/step.h, whose stages these are, in
-// the same order. Mirrored by reference/kernels/strand_step.h. Loops ask after their body (do, or if and do): a driver
-// that masks lanes (lavapipe) runs the body of one that asks before it once more than it has turns. Specialized with
-// RUN = particles per lane, the lanes per strand and the integrator. With contacts every solve is a dispatch of its
-// own; the last of a step moves the strand and goes on to the next step's first. Compiled for `jacobi` by itself; with
-// RINGLET_HEADS, for many heads at once; with RINGLET_CONTACTS, contacts; with RINGLET_SURROUNDINGS, contacts, bodies,
-// air, goals and fields; with RINGLET_BASELINES, the other integrators; each with the run in registers and, with
-// RINGLET_IN_MEMORY, in memory (scan/lanes.glsl).
+// The strand kernel, lanes x run: all outer steps of a dispatch for one strand; buffers are accessed only at
+// its start and end. Model: Iben et al. 2012, sections 3 and 5, with the choices of reference/step.h; it has
+// the same stages in the same order. Mirrored by reference/kernels/strand_step.h. Loops test their condition
+// after the body (do, or if and do): a driver that masks lanes (lavapipe) runs the body of other loops once
+// more than they have turns. Specialized with RUN = particles per lane, the lanes per strand and the
+// integrator. With contacts every solve is a dispatch of its own; the last one of a step moves the strand and
+// goes on to the next step's first. Compiled for `jacobi` alone; with RINGLET_HEADS, for many heads at once;
+// with RINGLET_CONTACTS, contacts; with RINGLET_SURROUNDINGS, contacts, bodies, air, goals and fields; with
+// RINGLET_BASELINES, the other integrators; each with the run in registers and, with RINGLET_IN_MEMORY, in
+// memory (scan/lanes.glsl).
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -38,18 +39,19 @@
 
 vec3 movedEdge[RUN];  // after the move
 
-// The curves that the forces are taken on, of the step at hand.
+// The smoothed curves of the present step, from which forces are computed.
 vec3 curveForce[RUN];       // core spring on the smoothed curve
-vec3 directionBefore[RUN];  // of the frame before the edge; its normal, but for an angle that the whole run shares
+vec3 directionBefore[RUN];  // of the frame before the edge; its normal, up to an angle that is the same for
+                            // the whole run
 vec3 normalBefore[RUN];
 vec3 directionAfter;  // of the frame after the run
 vec3 normalAfter;
 
-// Of the strand's first edge; frames are the rest pose's there.
+// Direction of the strand's first edge at rest; frames start from it.
 vec3 restDirection() { return directionOf(strand.firstEdge); }
 
-// What lies beyond the tip is void: its springs are zero (edge scale), its edges of any length, so nothing reaches back
-// from it and no stage needs to ask.
+// Beyond the tip everything is void: springs are zero (edge scale), and edges have any length. So nothing
+// acts back from there, and no stage needs a test for the tip.
 void loadStrand() {
   vec3 direction = restDirection();
   vec3 normal = someNormal(direction);
@@ -77,7 +79,7 @@ void loadStrand() {
   }
 }
 
-// Edges, velocity differences, lengths and directions; an edge of no length has direction zero.
+// Edges, velocity differences, lengths and directions; an edge without length has direction zero.
 void measureEdges() {
   vec3 pNext = fromTipward(p[0], 1);
   vec3 vNext = fromTipward(v[0], 1);
@@ -98,8 +100,9 @@ void measureEdges() {
   }
 }
 
-// The smoothed curves: directions and normals of the frames from one, forces of the core spring from the other. Two
-// passes: the first finds each lane's end state, the scan carries it, the second begins where the lane before ended.
+// The smoothed curves: one gives directions and normals of the frames, the other forces of the core spring.
+// Two passes: the first finds each lane's end state, the scan carries it, the second starts where the lane
+// before ended.
 void smoothCurves(vec3 edgeStart, vec3 velocityStart, vec3 rootDirection, vec3 rootNormal) {
   FilterState bendStart = startFilter(edgeStart, strand.bendBeta);
   FilterState coreStart = startFilter(edgeStart, strand.coreBeta);
@@ -122,7 +125,7 @@ void smoothCurves(vec3 edgeStart, vec3 velocityStart, vec3 rootDirection, vec3 r
   vec3 direction = lane == 0 ? rootDirection : directionOf(bend.d);
   vec3 normal = lane == 0 ? rootNormal : someNormal(direction);
   float share = smoothedShare(strand.coreBeta);
-  // The paper damps in its own loop.
+  // `paper` applies damping in its own loop.
   float damping = kIntegrator == kIntegratorPaper ? 0.0 : strand.coreDamping * share;
   float coreLength = 0.0;
   RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
@@ -138,7 +141,7 @@ void smoothCurves(vec3 edgeStart, vec3 velocityStart, vec3 rootDirection, vec3 r
     vec2 spring = coreOf(k, damping);
     curveForce[k] = coreForce(spring.x, spring.y, bDirection, bLength, restEdge[k].z, velocity.d);
     coreLength += isEdge(k) ? bLength : 0.0;
-    if (next == vec3(0)) next = direction;  // without direction: on as before
+    if (next == vec3(0)) next = direction;  // no direction: keeps the last one
     normal = carriedNormal(normal, direction, next);
     direction = next;
     if (isEdge(k)) RINGLET_TAP(kTapSmoothedEdge, first + k, vec4(smoothed(bend, strand.bendBeta), 0));
@@ -159,7 +162,7 @@ vec4 frameAfter(int k, vec2 twist) {
 }
 #endif
 
-// Frames carried along the smoothed curve, each edge's target in the frame before it, stretch and bend springs.
+// Frames along the smoothed curve, each edge's target in the frame before it, stretch and bend springs.
 void shapeForces() {
   vec2 twist = twistOfRun(directionBefore[0], normalBefore[0], normalAfter);
   RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
@@ -180,8 +183,8 @@ void shapeForces() {
   }
 }
 
-// The core's forces back on the real edges: the transpose of the smoothing, from the tip, so that they stay a gradient
-// ("transposed core"). The paper puts them on the edges as they are.
+// Applies the core's forces to the real edges by the transpose of the smoothing, from the tip, so that they
+// are still a gradient ("transposed core"). The paper applies them to the edges unchanged.
 void coreForces() {
   bool isTransposed = kIntegrator != kIntegratorPaper;
   float scale = isTransposed ? coreScale * smoothedShare(strand.coreBeta) : coreScale;
@@ -196,12 +199,12 @@ void coreForces() {
     if (isEdge(k)) RINGLET_TAP(kTapCoreForce, first + k, vec4(core, 0));
     force[k] += core;
   }
-  if (isCutEdge(0)) force[0] = vec3(0);  // where smoothing begins is held, as a root's edge is
+  if (isCutEdge(0)) force[0] = vec3(0);  // the start of the smoothing is pinned, as a root's edge is
 }
 
 #ifdef RINGLET_SURROUNDINGS
-// The strand as block; where that would go into a body once more, and again with friction. One loop, so that there is
-// one solve in the code.
+// Solves the strand as a block; if it would enter a body, once more with the bodies' pushes, and again with
+// friction. One loop, so that the code contains the solve once.
 void solveAmongBodies(uint step, vec3 pinned[3]) {
   clearPushes();
   bool pushed = false;
@@ -244,7 +247,8 @@ void solveVelocities(uint step) {
   }
 }
 
-// The stretch limit on the moved edges, as a prefix sum along the strand. Whether an edge was too long.
+// The stretch limit on the moved edges, as a prefix sum along the strand. Returns whether an edge was too
+// long; always false without bodies.
 bool limitEdges(bool velocitiesFollow, bool isDone) {
   vec3 shiftInRun[RUN];  // of particle k, by the edges of this lane
   vec3 shift = vec3(0);
@@ -266,8 +270,8 @@ bool limitEdges(bool velocitiesFollow, bool isDone) {
 }
 
 #ifdef RINGLET_SURROUNDINGS
-// Out of bodies, and edges no longer than allowed, in turn: what the one does may undo the other. isDone: the strand
-// is both.
+// Alternates between pushing the strand out of bodies and limiting its stretch, since each may undo the
+// other. isDone: both hold already.
 void keepAmongBodies(uint step, bool isDone) {
   uint round = 1;
   do {
@@ -288,7 +292,8 @@ void moveAndLimit(uint step) {
 #ifdef RINGLET_SURROUNDINGS
   RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) pStart[k] = p[k];
 #endif
-  // The moved edges from edges, not from positions: those are rounded to the hair's size, and shift / T would show it.
+  // Moved edges are computed from edges and not from positions: positions are rounded relative to the hair's
+  // extent, which would show in shift / T.
   vec3 vNext = fromTipward(v[0], 1);
   RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     p[k] = isPinned(k) ? pinAt(step + 1, min(k, kMaxRootCount - 1)) : p[k] + T * v[k];
@@ -300,14 +305,14 @@ void moveAndLimit(uint step) {
 #endif
 }
 
-// An idle strand has no particles, and its lanes store nothing.
+// An idle strand has no particles, so its lanes store nothing.
 void storeStrand(uint strandIndex, bool idle) {
   uint nonfinite = 0;
   uint firstNonfinite = ~0u;
   RINGLET_OVER_RUN for (int k = runEnd - 1; k >= 0; --k) {
     if (!isOwn(k)) continue;
     uint i = stateAt(strand.firstParticle + first + k);
-    positions[i] = vec4(p[k], 0);  // whole records: parts of one cost lavapipe more
+    positions[i] = vec4(p[k], 0);  // whole records: writing parts of them costs lavapipe more
     velocities[i] = vec4(v[k], 0);
     if (!isFiniteVec3(p[k]) || !isFiniteVec3(v[k])) {
       ++nonfinite;
@@ -339,7 +344,7 @@ void storeSolved() {
 }
 #endif
 
-// The forces of a step, from positions and velocities at its start.
+// Computes the forces of a step, from positions and velocities at its start.
 void computeForces(uint step) {
   RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) v[k] -= headVelocityChange(step);
   measureEdges();
@@ -348,7 +353,7 @@ void computeForces(uint step) {
   vec3 velocityStart = kIntegrator == kIntegratorPaper ? dv[0] : turningVelocityBefore(step, firstEdge);
   vec3 direction = directionOf(firstEdge);
   vec3 normal = rotate(rotationAtStart(step), someNormal(restDirection()));
-  if (kFalls) {  // frames begin along the strand's own first edge
+  if (kFalls) {  // frames start along the strand's own first edge
     normal = carriedNormal(normal, direction, eHat[0]);
     direction = eHat[0];
     edgeStart = e[0];
@@ -360,7 +365,7 @@ void computeForces(uint step) {
 }
 
 #ifdef RINGLET_CONTACTS
-// One solve with the contacts' systems or, of the step after a move, without them.
+// One solve with contacts; or, after a move, the first solve of the next step, without them.
 void solveOnce(uint strandIndex, bool idle) {
   bool moves = (parameters.phases & kPhaseMove) != 0;
   uint step = parameters.stepBegin;

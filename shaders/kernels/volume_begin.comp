@@ -1,6 +1,7 @@
-// Begins a step of the volume. Advances the displacement that each particle remembers: it decays, and grows by the
-// particle's motion in the head's frame. Computes what the particle contributes to the nodes in the first iteration,
-// from a guessed velocity; and the box of cells that holds all particles. Mirrored by reference/kernels/volume_step.h.
+// Begins a step of the volume. Advances the displacement of each particle: it decays, and grows by the
+// particle's motion in the head's frame. Computes the particle's contribution to the nodes in the first
+// iteration, from a guessed velocity; and the box of cells that contains all particles. Mirrored by
+// reference/kernels/volume_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume_buffers.glsl"
@@ -19,18 +20,18 @@ void main() {
   vec3 s = isKnown ? fadedDisplacement(before.displacement, place - before.place, numbers.kept) : vec3(0);
   vec3 last = lastVelocityOf(self.particle);
   vec4 added = addedTo(self.particle);
-  // J / m, of a particle that is of the volume and does not follow the head.
+  // J / m, for a particle that is part of the volume and does not follow the head.
   bool isFree = self.inverseMassUnit * self.mass > 0.0;
   vec3 given = isFree ? (added.xyz - added.w * last) / (self.inverseMassUnit * self.mass) : vec3(0);
   vec3 change = isKnown ? guessedChange(numbers.warmth, gain(), last - before.predicted, given) : vec3(0);
-  // Of a strand, a line, cells n times as large hold n times the mass in n^3 times the room.
+  // A strand is a line: cells n times as large hold n times its mass in n^3 times the volume.
   float coarser = cell > numbers.cell ? numbers.cell / cell : 1.0;
   float mass = self.mass * othersShare(coarser * coarser * self.ownDensity, before.density);
   vec4 rate = rateFrom(mass, v + change, x, s, seen);
   states[i] = VolumeState(s, before.density, place, mass, v, 1);
   if (parameters.sorts != 0) {
     brought[i] = rate;
-    if (self.mass > 0.0) reachTo(place);  // what was cut off has none: it is of the volume no more
+    if (self.mass > 0.0) reachTo(place);  // fallen hair has no mass: it is not part of the volume any more
   } else {
     parcels[locatedAt(i).w].rate = rate;
   }

@@ -1,5 +1,5 @@
-// Sets the box of cells around all particles, in a step that sorts them into cells; one invocation. Hair that extends
-// farther than the buffer has cells for gets larger cells, which is told to the host.
+// Sets the box of cells around all particles, in a step that sorts them into cells; one invocation. If hair
+// extends farther than the buffer has cells for, cells become larger, which is reported to the host.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume_buffers.glsl"
