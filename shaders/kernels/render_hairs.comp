@@ -1,7 +1,7 @@
-// Draws hairs, segment by segment, onto the samples of a picture. A segment is traversed along its longer
-// axis; a sample on the way is hit with the hair's coverage as probability, drawn from hair and segment, so
-// that the noise moves with the hair. Hits are spread evenly along the segment, so that the work is
-// proportional to the covered area and not to the length.
+// Draws hairs, edge by edge, onto the samples of a picture. An edge is traversed along its longer axis in the
+// picture; a sample on the way is hit with the hair's coverage as probability, drawn from hair and edge, so
+// that the noise moves with the hair. Hits are spread evenly along the edge, so that the work is proportional
+// to the covered area and not to the length.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/drawn_hairs.glsl"

@@ -1,4 +1,4 @@
-// Shades every sample in which hair is visible. The position of a sample on its segment follows from the
+// Shades every sample in which hair is visible. The position of a sample on its edge follows from the
 // positions of both in the picture.
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -104,7 +104,8 @@ struct Material {
   double coreRelaxedShare = 0.25;   // the core's constants at rest length, as a share of those when elongated
   double coreElongationLow = 1.0;   // core elongation (current / rest length) at which it begins to stiffen
   double coreElongationHigh = 1.1;  // core elongation at which it has its full constants
-  double gravityFactor = 1;         // multiplies gravity; the preload balances gravity for a factor of 1
+  double gravityFactor = 1;         // multiplies gravity; the preload balances its share of gravity without
+                                    // the factor
   double inertiaFactor = 1;  // multiplies the inertial force of a head that travels, not of one that turns
   std::optional<double> bendSmoothingLength{};  // alpha_b [m]; unset: from the rest curl; 0: raw curve
   std::optional<double> coreSmoothingLength{};  // alpha_c [m]; unset: as above

@@ -25,7 +25,7 @@ struct DeviceMemory {
   std::uint64_t rootPoses = 0;     // of strands that have poses of their own
   std::uint64_t contacts = 0;      // contact particles, their grid, pairs of strands that may touch
   std::uint64_t contactLists = 0;  // at their present length
-  std::uint64_t volume = 0;        // of strands that meet as a volume: particles, grid
+  std::uint64_t volume = 0;        // of strands in contact as a volume: particles, grid
   std::uint64_t world = 0;         // the head's poses, bodies with their distance grids, air
   std::uint64_t frames = 0;        // in flight, in the host's memory: positions read back, poses, air
   std::uint64_t shared = 0;        // of particles and strands: held once for all simulations of an asset

@@ -17,7 +17,7 @@ struct Features {
 
   auto operator<=>(const Features&) const = default;
   bool any() const { return *this != Features{}; }
-  /// Those of both.
+  /// The features of both.
   friend Features operator|(Features a, const Features& b);
 };
 

@@ -53,7 +53,7 @@ struct HairAsset::Implementation {
   RestState rest{};                        // without its particles, which are on the device
   std::optional<RestHalo> halo{};          // of divided hair with contacts
   std::optional<RestContacts> contacts{};  // with contacts
-  std::optional<RestVolume> volume{};      // if some strands meet as a volume
+  std::optional<RestVolume> volume{};      // if some strands are in contact as a volume
   std::vector<ShapeCost> measured{};       // choice.measured
   GroomRecords records{};
   std::vector<GroomChunk> chunks{};

@@ -119,7 +119,7 @@ struct Simulation::Implementation {
   Status addContacts();
   Status placeAtRest();
   Status carry(const HeadHistory& before);
-  // What inputs that are made anew are made from.
+  // The source for inputs that are made after creation.
   InputSource inputSource() const;
   DeviceGroom& changed();
   Status archive(Archive& archive);

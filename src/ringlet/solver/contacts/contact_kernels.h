@@ -35,8 +35,9 @@ constexpr std::size_t contactKernelCount(ContactTaper taper) {
 /// Invocations per workgroup.
 inline constexpr std::uint32_t kContactGroupSize = 64;
 
-/// inGroups: some strands meet as a volume and not pair by pair (VolumeStrands); texels: records are read as
-/// texels (gpu::BindingKind); forGpu: the form for GPUs; divided: other devices step some of the strands.
+/// inGroups: some strands are in contact as a volume and not pair by pair (VolumeStrands); texels: records
+/// are read as texels (gpu::BindingKind); forGpu: the form for GPUs; divided: other devices step some of the
+/// strands.
 gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper taper, bool inGroups,
                                              std::uint32_t groupSize, bool texels, bool forGpu,
                                              bool divided = false);

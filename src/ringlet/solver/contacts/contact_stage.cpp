@@ -91,8 +91,8 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   self.everyPair_ = contacts.graph.everyPair;
   self.isDivided_ = divided;
   self.mostMotionGroups_ = device.properties().isCpu ? kMotionGroupsOfCpu : kMotionGroups;
-  // If some hair meets as a volume, few contact particles are in pairs, and a sample may contain none of
-  // these.
+  // If some hair is in contact as a volume, few contact particles are in pairs, and a sample may contain none
+  // of these.
   const bool inGroups = contacts.volume.hasGroups();
   self.sampleStride_ = inGroups ? 0 : sampleStride(contacts, settings.contacts);
   self.largestRadius_ = contacts.largestRadius;

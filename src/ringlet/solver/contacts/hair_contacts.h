@@ -14,8 +14,8 @@
 namespace ringlet {
 
 struct HairContacts {
-  std::optional<ContactStage> pairs{};   // of strands that meet pair by pair
-  std::optional<VolumeStage> volume{};   // of strands that meet as a volume
+  std::optional<ContactStage> pairs{};   // of strands in contact pair by pair
+  std::optional<VolumeStage> volume{};   // of strands in contact as a volume
   std::optional<DividedHair> divided{};  // if other devices step some of the strands
   ContactReport atRest{};
 

@@ -1,4 +1,4 @@
-// VolumeStage: strands that meet as a volume, on one device, between the strand kernel's solves
+// VolumeStage: strands in contact as a volume, on one device, between the strand kernel's solves
 // (shaders/equations/volume.glsl). rest/volume_strands.h chooses these strands. Mirrored by
 // reference/kernels/volume_step.h.
 //

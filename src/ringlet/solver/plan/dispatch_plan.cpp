@@ -33,8 +33,8 @@ LoopCost loopCost(const StrandRange& range, const Settings& settings, std::size_
   const bool inMemory = range.shape.inMemory;
   const std::uint64_t run = range.shape.particlesPerLane + (inMemory ? 1 : 8);
   LoopCost cost;
-  // Sweeps over the run. In memory, air adds 12 for the waves of turbulence, and bodies add those of two more
-  // solves and of one round after the move.
+  // Sweeps over the run. In memory, those of air include 12 for the waves of turbulence, and those of bodies
+  // two more solves and one round after the move.
   const std::uint64_t sweeps = inMemory ? 24 + (settings.air.on ? 14 : 0) + (bodyCount > 0 ? 20 : 0) : 20;
   // In registers a body near the run costs up to 17 evaluations per particle and per edge, and as many in
   // each of eight rounds after the move; a run is never near more than four bodies. In memory runs are long,
