@@ -19,8 +19,8 @@ namespace {
 constexpr double kSmallBody = 0.05, kLargeBody = 20;  // relative to the groom's size
 constexpr double kDeepRoots = 0.25;                   // relative to the body's size
 constexpr double kOnShare = 0.2,
-                 kNearEndShare = 0.1;  // of a strand's length: an end on a body; one that is further
-constexpr double kLeastClear = 0.005;  // an end off a body is at least this far away [m]
+                 kNearEndShare = 0.1;  // of the mean length: an end on a body; how much farther the other is
+constexpr double kLeastClear = 0.005;  // lower bound of both [m]
 
 // The groom's placement in the world.
 struct Stand {
