@@ -155,6 +155,62 @@ def check_carried_by_head():
           "simulated hair stands for its groom, and a second result takes the first one's place")
 
 
+def vertices(mesh):
+    """Of the evaluated mesh, in the world."""
+    evaluated = mesh.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    points = np.empty(3 * len(evaluated.data.vertices), np.float32)
+    evaluated.data.vertices.foreach_get("co", points)
+    matrix = np.array(evaluated.matrix_world)
+    return points.reshape(-1, 3) @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+def check_head_that_bends():
+    scene = empty_scene(1.0, "bends")
+    head = new_sphere("Head", 0.08)
+    animate(head, 1)
+    bend = head.modifiers.new("Bend", "SIMPLE_DEFORM")
+    bend.deform_method, bend.deform_axis = "BEND", "X"
+    for frame, angle in ((FIRST - 3, 0.2), (LAST, 1.4)):
+        bend.angle = angle
+        bend.keyframe_insert("angle", frame=frame)
+    scene.frame_set(FIRST)
+    chosen = np.arange(40, 400, 60)
+    outward = np.linspace(0, 0.1, 12)[None, :, None] * np.array([0, 0, -1])
+    hair = new_hair("Hair", vertices(head)[chosen][:, None] + outward)
+    scene.ringlet.head = head
+    select(hair)
+    check(bpy.ops.ringlet.simulate() == {"FINISHED"}, "hair goes with a head that bends")
+    expected = []
+    for frame in range(FIRST, LAST + 1):
+        scene.frame_set(frame)
+        expected.append(vertices(head)[chosen])
+    found = frames_of("Hair simulated").reshape(LAST - FIRST + 1, len(chosen), 12, 3)[:, :, 0]
+    off = np.abs(found - np.array(expected)).max()
+    rigid = np.linalg.norm(np.diff(expected, axis=1), axis=-1)
+    check(np.ptp(rigid, axis=0).max() > 0.005, f"it bends: distances of roots change by {np.ptp(rigid, axis=0).max():.3f} m")
+    check(off < 1e-5, f"roots are within {off:.1e} m of the points they are on")
+
+    # The same mesh as Blender's own exporter of USD writes it.
+    folder = os.path.join(FOLDER, "ringlet", "Hair")
+    select(head)
+    for kind in ("usdc", "usda"):
+        bpy.ops.wm.usd_export(filepath=os.path.join(folder, "head." + kind), selected_objects_only=True,
+                              export_animation=True)
+        with open(os.path.join(folder, "scene.toml"), encoding="utf-8") as file:
+            text = file.read()
+        text = text.replace('file = "scalp.obj"\ncache = "scalp.pc2"', f'file = "head.{kind}"')
+        with open(os.path.join(folder, "usd.toml"), "w", encoding="utf-8") as file:
+            file.write(text)
+        subprocess.run([PROGRAM, "simulate", "usd.toml", "-o", kind, "--overwrite"], cwd=folder, check=True,
+                       capture_output=True)
+        subprocess.run([PROGRAM, "convert", f"{kind}/hair.usda", f"{kind}/hair.pc2"], cwd=folder, check=True,
+                       capture_output=True)
+        with open(os.path.join(folder, kind, "hair.pc2"), "rb") as file:
+            raw = np.frombuffer(file.read(), "<f4", offset=32).reshape(LAST - FIRST + 1, len(chosen), 12, 3)
+        off = np.abs(raw[:, :, 0] - np.array(expected)).max()
+        check(off < 1e-5, f"as {kind}, too, within {off:.1e} m")
+
+
 def check_older_kinds():
     scene = empty_scene(1.0, "older")
     mesh = new_sphere("Scalp", 0.08)
@@ -297,6 +353,7 @@ install()
 check_curves(1.0)
 check_curves(0.01)
 check_carried_by_head()
+check_head_that_bends()
 check_older_kinds()
 check_errors()
 check_cancel()

@@ -6,6 +6,7 @@ import pytest
 
 from ringlet_hair.errors import RingletError
 from ringlet_hair.job import OUR_FILES, Job, JobSettings
+from ringlet_hair.point_cache import PointCache
 from ringlet_hair.rigid_motion import RigidMotion
 from ringlet_hair.sampling import HeadMesh, Samples
 from ringlet_hair.strands import Strands
@@ -22,15 +23,16 @@ def still(frames):
     return RigidMotion(np.tile(np.eye(3), (frames, 1, 1)), np.zeros((frames, 3)))
 
 
-def job(folder, options=OPTIONS, program=PROGRAM):
-    """Two frames of two strands beside a head."""
+def job(folder, options=OPTIONS, program=PROGRAM, bent=None):
+    """Two frames of two strands beside a head, from which their roots are 3 away. `bent`: of a head that bends."""
     settings = JobSettings(program=program, folder=str(folder), first_frame=1, last_frame=2, fps=24, unit=0.01,
                            gravity=9.81, pre_roll=0, material="", contacts=False, options=options)
     points = np.array([[0, 0, -i] for i in range(8)] + [[1, 0, -i] for i in range(8)], float)
     frames = list(settings.sampled_frames)
     head = HeadMesh("Head", np.array([[0, 0, 3], [1, 0, 3], [0, 1, 3], [0, 0, 4]], float),
-                    np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]), still(len(frames)), 0)
-    return Job(settings, Samples([], [Strands(points, [8, 8])], still(len(frames)), head, frames, []))
+                    np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]), still(len(frames)), 0, bent)
+    samples = Samples([], [Strands(points, [8, 8])], still(len(frames)), head, frames, frames.index(1), [])
+    return Job(settings, samples)
 
 
 def files_in(folder):
@@ -63,6 +65,20 @@ def test_files_of_the_user_stay(folder, times):
     assert {name: after.get(name) for name in OTHERS} == before
     assert set(after) - set(before) == {"scene.toml", "groom.hair", "head.obj", "hair.pc2"}
     assert {path.name for path in folder.iterdir()} == {"out", "run-mine", "notes.txt", *set(after) - set(before)}
+
+
+def test_roots_follow_a_head_that_bends(tmp_path):
+    """Its first point stays, below which the first root is; the second goes along X and takes the other root along."""
+    rest = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 3], [0, 0, 4]], float)
+    bent = [rest + np.array([[0, 0, 0], [0.5 * (frame - 1), 0, 0], [0, 0, 0], [0, 0, 0]]) for frame in range(3)]
+    folder = tmp_path / "hair"
+    folder.mkdir()
+    done = run(folder, bent=bent)
+    assert done.error is None, done.error
+    roots = np.array([PointCache(folder / "hair.pc2").frame(frame)[[0, 8]] for frame in range(2)])
+    assert roots[:, 0] == pytest.approx(np.zeros((2, 3)), abs=1e-4)
+    assert roots[:, 1] == pytest.approx(np.array([[1, 0, 0], [1.5, 0, 0]]), abs=1e-4)
+    assert {path.name for path in folder.iterdir()} >= {"scalp.obj", "scalp.pc2"}
 
 
 @pytest.mark.parametrize("name", OUR_FILES)

@@ -32,6 +32,7 @@
 #include "tests/groom/usda_samples.h"
 #include "tests/groom/zip_bytes.h"
 #include "tests/motion/gltf_samples.h"
+#include "tests/motion/mesh_motion_samples.h"
 
 namespace ringlet::fuzz {
 namespace {
@@ -131,6 +132,15 @@ void writeMotions(const fs::path& folder) {
         "Yrotation\n\tJOINT Head\n\t{\n\t\tOFFSET 0 10 0\n\t\tCHANNELS 3 Zrotation Xrotation Yrotation\n"
         "\t\tEnd Site\n\t\t{\n\t\t\tOFFSET 0 2 0\n\t\t}\n\t}\n}\nMOTION\nFrames: 2\nFrame Time: 0.04\n"
         "1 2 3 0 0 0 0 0 0\n1 2 4 5 6 7 8 9 -1.5e1\n");
+  const std::vector<std::vector<Vec3d>> samples{{{}, {1, 0, 0}, {0, 1, 0}},
+                                                {{0, 0, 1}, {1, 0, 1}, {0, 1, 2}}};
+  write(seed(folder, "point_cache", "triangle.pc2"), test::pc2Bytes(samples));
+  write(seed(folder, "point_cache", "triangle.mdd"), test::mddBytes(samples, 0.04));
+  write(seed(folder, "usd_mesh", "triangle.usdc"), test::usdcBytes({{0, 1, 2}}, samples, 24));
+  write(seed(folder, "usd_mesh", "triangle.usda"),
+        test::usdaText({{0, 1, 2}}, samples, 24,
+                       "  double3 xformOp:translate.timeSamples = { 1: (0, 0, 0), 4: (0, 3, 0) }\n"
+                       "  uniform token[] xformOpOrder = [\"xformOp:translate\"]\n"));
   const test::GltfBuilder strip = test::bendingStrip(1, 5121, 5126);
   write(seed(folder, "gltf_file", "strip.gltf"), strip.text());
   write(seed(folder, "gltf_file", "strip.glb"), strip.glb());
@@ -279,7 +289,7 @@ void writeDictionaries(const fs::path& folder) {
                                      "primChildren",
                                      "nan",
                                      "1e38"};
-  for (const char* fuzzer : {"usda_file", "usdc_file", "usdz_file"})
+  for (const char* fuzzer : {"usda_file", "usdc_file", "usdz_file", "usd_mesh"})
     write(folder / (std::string(fuzzer) + ".dict"), dictionary(usd));
   write(folder / "ply_file.dict", dictionary(std::vector<std::string>{
                                       "element strand ", "element edge ", "property list uchar int ", "nsegs",

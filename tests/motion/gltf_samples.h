@@ -49,10 +49,12 @@ class GltfBuilder {
                const std::vector<double>& seconds, const std::vector<double>& values) {
     auto& animation = root["animations"][a];
     if (animation.is_null()) animation = {{"name", "take" + std::to_string(a)}};
-    const int sampler = add(animation["samplers"],
-                            {{"input", floats(seconds, "SCALAR")},
-                             {"output", floats(values, std::string(path) == "rotation" ? "VEC4" : "VEC3")},
-                             {"interpolation", interpolation}});
+    const int sampler =
+        add(animation["samplers"], {{"input", floats(seconds, "SCALAR")},
+                                    {"output", floats(values, std::string(path) == "rotation"  ? "VEC4"
+                                                              : std::string(path) == "weights" ? "SCALAR"
+                                                                                               : "VEC3")},
+                                    {"interpolation", interpolation}});
     add(animation["channels"], {{"sampler", sampler}, {"target", {{"node", node}, {"path", path}}}});
   }
 

@@ -1,5 +1,6 @@
 // motion/head_scalp.h: what composes to the scalp's own motion, and where roots are when there is none.
 #include "ringlet/motion/head_scalp.h"
+#include "ringlet/motion/skinned_mesh.h"
 
 #include <gtest/gtest.h>
 

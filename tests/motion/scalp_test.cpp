@@ -77,6 +77,73 @@ TEST(SkinnedMesh, BendsAsItsJointsDo) {
   }
 }
 
+// The strip with a morph target that lifts all of it, and a sparse one that moves point 3 aside.
+GltfBuilder morphingStrip() {
+  GltfBuilder file = bendingStrip(8, 5121, 5126);
+  std::vector<double> lifts;
+  for (int p = 0; p < 18; ++p) lifts.insert(lifts.end(), {0, 0.1, 0});
+  const int lift = file.floats(lifts, "VEC3");
+  const int index = file.accessor(std::vector<std::uint8_t>{3}, "SCALAR", 5121);
+  const int aside = file.floats({0, 0, 0.3}, "VEC3");
+  const auto viewOf = [&](int a) {
+    return file.root["accessors"][static_cast<std::size_t>(a)]["bufferView"];
+  };
+  file.root["accessors"].push_back({{"componentType", 5126},
+                                    {"count", 18},
+                                    {"type", "VEC3"},
+                                    {"sparse",
+                                     {{"count", 1},
+                                      {"indices", {{"bufferView", viewOf(index)}, {"componentType", 5121}}},
+                                      {"values", {{"bufferView", viewOf(aside)}}}}}});
+  auto& mesh = file.root["meshes"][0];
+  mesh["primitives"][0]["targets"] = {{{"POSITION", lift}},
+                                      {{"POSITION", file.root["accessors"].size() - 1}}};
+  mesh["weights"] = {0.5, 1};
+  return file;
+}
+
+TEST(SkinnedMesh, MorphsBeforeItBends) {
+  const auto plain = meshOf(bendingStrip(8, 5121, 5126));
+  ASSERT_TRUE(plain);
+  const std::vector<Vec3d> rest = plain->pointsAt(0);
+  const auto expectAt = [&](const GltfBuilder& file, double t, double lift, double aside) {
+    const auto mesh = meshOf(file);
+    ASSERT_TRUE(mesh);
+    EXPECT_EQ(mesh->warnings().size(), 0u);
+    const std::vector<Vec3d> points = mesh->pointsAt(t);
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const Vec3d shape = rest[p] + Vec3d{0, 0.1 * lift, p == 3 ? 0.3 * aside : 0};
+      EXPECT_LT(length(points[p] - bentPoint(shape, t)), 1e-6) << p << " " << t;
+    }
+  };
+  GltfBuilder file = morphingStrip();
+  expectAt(file, 0.3, 0.5, 1);  // the mesh's weights
+  file.root["nodes"][2]["weights"] = {2, 0};
+  expectAt(file, 1, 2, 0);  // its node's
+  GltfBuilder linear = file, step = file, cubic = file;
+  linear.channel(0, 2, "weights", "LINEAR", {0, 1}, {0, 1, 1, -1});
+  step.channel(0, 2, "weights", "STEP", {0, 1}, {0, 1, 1, -1});
+  cubic.channel(0, 2, "weights", "CUBICSPLINE", {0, 1}, {0, 0, 0, 1, 0, 0, 0, 0, 1, -1, 0, 0});
+  for (const double t : {0.0, 0.25, 0.5, 1.0}) {
+    const double eased = t * t * (3 - 2 * t), late = t < 1 ? 0 : 1;
+    expectAt(linear, t, t, 1 - 2 * t);
+    expectAt(step, t, late, 1 - 2 * late);
+    expectAt(cubic, t, eased, 1 - 2 * eased);
+  }
+}
+
+// A file in which nothing but weights is animated lasts as long as these.
+TEST(SkinnedMesh, LastsAsLongAsItMorphs) {
+  GltfBuilder file = morphingStrip();
+  file.root["animations"] = nlohmann::json::array();
+  file.channel(0, 2, "weights", "LINEAR", {0.5, 3}, {0, 0, 1, 0});
+  const auto mesh = meshOf(file);
+  ASSERT_TRUE(mesh);
+  EXPECT_EQ(mesh->firstSeconds(), 0.5);
+  EXPECT_EQ(mesh->lastSeconds(), 3);
+  EXPECT_GT(length(mesh->pointsAt(3)[0] - mesh->pointsAt(0.5)[0]), 0.09);
+}
+
 TEST(SkinnedMesh, FollowsItsNodeWithoutASkin) {
   const auto mesh = meshOf(travellingTriangles(5), {.placement = {.metresPerUnit = 2, .upIsZ = true}});
   ASSERT_TRUE(mesh);
@@ -105,6 +172,16 @@ TEST(SkinnedMesh, SaysWhatItCannotUse) {
          root["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0}};
        }),
        "KHR_draco_mesh_compression"},
+      {strip([](json& root) {
+         root["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 3}}};
+       }),
+       "POSITION of a morph target"},
+      {strip([](json& root) {
+         root["accessors"].push_back(root["accessors"][1]);
+         root["accessors"].back()["count"] = 2;
+         root["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", root["accessors"].size() - 1}}};
+       }),
+       "morph target 0 has 2 points, not 6"},
       {strip([](json& root) { root["accessors"][1]["count"] = 5; }), "triangle 3 has point 5 of 5"},
       {strip([](json& root) { root["accessors"][3]["count"] = 11; }), "no triangles"},
       {strip([](json& root) { root["accessors"][3]["byteOffset"] = 2, root["accessors"][3]["count"] = 9; }),

@@ -225,7 +225,7 @@ TEST(UsdValues, ChangesOfTheGroomsPrims) {
   const fs::path path =
       write(".usdc", groom.groom, {.velocities = true, .origin = &groom, .originPrims = true});
   const auto bytes = fileBytes(path);
-  const auto layer = readUsdc(bytes, path.string(), {.keepsValues = true});
+  const auto layer = readUsdc(bytes, path.string(), {.content = UsdContent::strandsAndValues});
   ASSERT_TRUE(layer) << layer.error().message;
   ASSERT_EQ(layer->prims.size(), 3u);
   const char* paths[]{"/Head", "/Head/Left", "/Head/Right"};
@@ -265,7 +265,7 @@ TEST(UsdValues, ChangesOfCubicCurvesSayWhatTheyAre) {
   ASSERT_FALSE(groom.prims.front().isWhole);
   const fs::path path = write(".usdc", groom.groom, {.origin = &groom, .originPrims = true});
   const auto bytes = fileBytes(path);
-  const auto layer = readUsdc(bytes, path.string(), {.keepsValues = true});
+  const auto layer = readUsdc(bytes, path.string(), {.content = UsdContent::strandsAndValues});
   ASSERT_TRUE(layer) << layer.error().message;
   const auto has = [&](std::size_t prim, std::string_view name) {
     return std::ranges::count(layer->prims[prim].attributes, name, &UsdAttribute::name) == 1;

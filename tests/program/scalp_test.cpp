@@ -12,6 +12,7 @@
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/motion/skinned_mesh.h"
 #include "tests/motion/gltf_samples.h"
+#include "tests/motion/mesh_motion_samples.h"
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
@@ -84,6 +85,38 @@ TEST(ScalpProgram, KeepsRootsOnAMeshThatBendsOnTheDevice) {
   writeScene(folder / "scene.toml", "[scalp]\nfile = 'strip.glb'\n[contacts]\nradius = 0.01\n");
   simulate(folder, "gpu");
   expectOnStrip(folder);
+}
+
+// One mesh in every form: roots are on it, and forms with the same samples give the same hair.
+TEST(ScalpProgram, FollowsPointCachesAndSequences) {
+  const auto folder = folderWithFiles("scalp_samples", 0);
+  const auto strip = readSkinnedMesh(folder / "strip.glb");
+  ASSERT_TRUE(strip) << strip.error().message;
+  std::vector<std::vector<Vec3d>> samples;
+  for (int frame = 0; frame <= 12; ++frame) samples.push_back(strip->pointsAt(frame / 24.0));
+  test::writeMeshMotion(folder, "m", strip->triangles(), samples, 24);
+  std::vector<std::string> hashes;
+  for (const char* scalp : {"file = 'm.obj'\ncache = 'm.pc2'", "file = 'm.obj'\ncache = 'm.pc2'\nfps = 24",
+                            "file = 'm.obj'\ncache = 'm.mdd'", "file = 'm.####.obj'\nup = 'Y'",
+                            "file = 'm.usda'\nmesh = 'M'", "file = 'm.usdc'\nmesh = '/M'"}) {
+    writeScene(folder / "scene.toml", fmt::format("[motion]\nkind = 'nod'\n[scalp]\n{}\nunit = 1\n", scalp));
+    const json run = simulate(folder, "reference");
+    EXPECT_EQ(run["warnings"], json::array());
+    expectOnStrip(folder);
+    hashes.push_back(run["positions_hash"]);
+  }
+  EXPECT_EQ(hashes[1], hashes[0]);
+  EXPECT_EQ(hashes[3], hashes[0]);
+  EXPECT_EQ(hashes[5], hashes[4]) << "USD's times begin with 1/24 s, MDD's are rounded";
+  for (const char* needs : {"m.pc2", "m.0012.obj"}) {
+    writeScene(folder / "scene.toml", "[scalp]\nfile = 'm.####.obj'\nunit = 1\n");
+    if (std::string(needs) == "m.pc2")
+      writeScene(folder / "scene.toml", "[scalp]\nfile = 'm.obj'\ncache = 'm.pc2'\nunit = 1\n");
+    std::ofstream(folder / needs) << "v 0 0 0\n";
+    EXPECT_NE(refused(folder).find(std::string("the scalp: ") + (folder / needs).filename().string()),
+              std::string::npos)
+        << refused(folder);
+  }
 }
 
 // The head is the strip's second bone, 1 m along X, put 10 m up: the groom is in the bone's frame, the mesh

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "ringlet/motion/head_scalp.h"
+#include "ringlet/motion/skinned_mesh.h"
 #include "ringlet/rest/material_presets.h"
 #include "ringlet/solver/simulation.h"
 #include "tests/motion/gltf_samples.h"

@@ -12,11 +12,13 @@ from .hair_file import write_hair
 from .mesh_file import write_obj_mesh
 from .point_cache import write_point_cache
 from .program import Run, command_line
-from .scene_text import SCENE_HEADING, Collider, Scene, keys_of, scene_text
+from .scene_text import SCENE_HEADING, Collider, Scalp, Scene, keys_of, scene_text
 from .strands import joined
 from .usd_points import usd_frames
 
-OUR_FILES = ("scene.toml", "groom.hair", "head.obj", "hair.pc2", "hair.pc2.partial")
+OUR_FILES = ("scene.toml", "groom.hair", "head.obj", "scalp.obj", "scalp.pc2", "hair.pc2", "hair.pc2.partial")
+
+FARTHEST_ROOT = 0.25  # from a head that bends, of its size; hair beyond is not this head's
 
 
 @dataclass
@@ -78,14 +80,25 @@ def write_inputs(settings, samples):
         about = pivot if goes_along else head.points.mean(axis=0)
         write_obj_mesh(os.path.join(settings.folder, "head.obj"), head.points - about, head.triangles)
         colliders.append(Collider(head.name, "head.obj", None if goes_along else keys(head.motion, about)))
+    scalp = write_scalp(settings, samples) if samples.head and samples.head.bent else None
     scene = Scene(groom="groom.hair", unit=settings.unit, frames=settings.last_frame - settings.first_frame + 1,
                   fps=settings.fps, keys=keys(samples.motion, pivot), gravity=settings.gravity,
                   pre_roll=settings.pre_roll / settings.fps, material=settings.material,
-                  contacts=settings.contacts, colliders=colliders)
+                  contacts=settings.contacts, scalp=scalp, colliders=colliders)
     path = os.path.join(settings.folder, "scene.toml")
     with open(path, "w", encoding="utf-8") as file:
         file.write(scene_text(scene))
     return path
+
+
+def write_scalp(settings, samples):
+    """The head as it bends, from the bind frame on: the roots are on it as it is there."""
+    head, frames = samples.head, samples.head.bent[samples.bind:]
+    write_obj_mesh(os.path.join(settings.folder, "scalp.obj"), frames[0], head.triangles)
+    write_point_cache(os.path.join(settings.folder, "scalp.pc2"), frames, len(head.points))
+    start = (samples.frames[samples.bind] - settings.start_frame) / settings.fps
+    size = np.ptp(head.points, axis=0).max() * settings.unit
+    return Scalp("scalp.obj", "scalp.pc2", start, FARTHEST_ROOT * size)
 
 
 class Job:

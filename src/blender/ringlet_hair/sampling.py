@@ -14,6 +14,7 @@ class HeadMesh:
     triangles: np.ndarray   # (m, 3)
     motion: RigidMotion
     off: float              # how far a point is from the rigid motion at most [Blender unit]
+    bent: list = None       # (n, 3) in the world at each frame, where it bends and carries the hair
 
 
 @dataclass
@@ -23,6 +24,7 @@ class Samples:
     motion: RigidMotion     # of the hair
     head: HeadMesh          # or None
     frames: list            # of the motions
+    bind: int               # into frames
     warnings: list
 
 
@@ -64,12 +66,15 @@ def combined(sources, strands, matrices, head, head_points, triangles, frames, b
                                "take the modifier that changes it off")
         head_motion, off = motion_of_points(head_points, head_points[bind])
         mesh = HeadMesh(head.name, head_points[bind], triangles, head_motion, off)
-        if motion.is_still(size):
-            motion = head_motion  # the head carries it
+        is_carried = motion.is_still(size)
+        if is_carried:
+            motion = head_motion
         if off > 1e-3 * np.ptp(mesh.points, axis=0).max():
-            warnings.append(f"{head.name} bends: its points are up to {off:.3g} units from the nearest rigid motion, "
-                            "which is taken")
-    return Samples(sources, strands, motion, mesh, list(frames), warnings)
+            mesh.bent = head_points if is_carried else None
+            warnings.append(f"{head.name} bends, and hair stays out of it as if it did not: its points are up to "
+                            f"{off:.3g} units from the nearest rigid motion. "
+                            + ("Roots follow it as it bends" if is_carried else "Roots go as their object does"))
+    return Samples(sources, strands, motion, mesh, list(frames), bind, warnings)
 
 
 def mesh_points(head, depsgraph):

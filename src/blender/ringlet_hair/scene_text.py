@@ -26,6 +26,15 @@ class Collider:
 
 
 @dataclass
+class Scalp:
+    """A mesh that bends, in the world: an OBJ file and its points in every frame."""
+    file: str
+    cache: str
+    start: float      # of its first frame [s]
+    farthest: float   # from it, of a root [m]
+
+
+@dataclass
 class Scene:
     groom: str                     # .hair, in the frame of `keys`
     unit: float                    # metres per Blender unit
@@ -36,6 +45,7 @@ class Scene:
     pre_roll: float = 0            # [s]
     material: str = ""             # a preset, or the path of a material file
     contacts: bool = False
+    scalp: Optional[Scalp] = None  # that roots follow
     colliders: list = field(default_factory=list)
     files: tuple = ("hair.usda",)  # that the run writes
 
@@ -55,6 +65,9 @@ def scene_text(scene: Scene):
         lines += ["[material]", f"{key} = {quoted(scene.material)}", ""]
     lines += ["[motion]", f"pre_roll = {scene.pre_roll!r}", ""]
     lines += key_lines("motion.key", scene.keys)
+    if scene.scalp:
+        lines += ["[scalp]", f"file = {quoted(scene.scalp.file)}", f"cache = {quoted(scene.scalp.cache)}",
+                  f"unit = {scene.unit!r}", f"start = {scene.scalp.start!r}", f"farthest = {scene.scalp.farthest!r}", ""]
     lines += ["[simulation]", f"fps = {scene.fps!r}", f"frames = {scene.frames}", f"gravity = {scene.gravity!r}", ""]
     if scene.contacts:
         lines += ["[contacts]", ""]

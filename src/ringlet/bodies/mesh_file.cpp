@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -12,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ringlet/base/file_ending.h"
 #include "ringlet/base/quoted.h"
 #include "ringlet/base/whole_file.h"
 #include "ringlet/groom/obj_text.h"
@@ -83,10 +85,9 @@ bool hasArea(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& trian
   return a != b && b != c && c != a;
 }
 
-}  // namespace
-
-Result<TriangleMesh> readObjMesh(std::span<const std::byte> bytes, const std::filesystem::path& path,
-                                 double metresPerUnit) {
+// Of all faces; those without an area too.
+Result<TriangleMesh> facesOf(std::span<const std::byte> bytes, const std::filesystem::path& path,
+                             double metresPerUnit) {
   const std::string name = path.string();
   if (!(metresPerUnit >= 1e-6 && metresPerUnit <= 1000))
     return Error{fmt::format("{}: a unit of {} m; expected 1e-6 to 1000", name, metresPerUnit)};
@@ -106,34 +107,53 @@ Result<TriangleMesh> readObjMesh(std::span<const std::byte> bytes, const std::fi
     if (!status) return status.error();
   }
 
-  TriangleMesh mesh{std::move(content.mesh.points), {}};
-  mesh.triangles.reserve(content.mesh.triangles.size());
-  for (std::size_t t = 0; t < content.mesh.triangles.size(); ++t) {
-    for (std::uint32_t index : content.mesh.triangles[t]) {
+  TriangleMesh& mesh = content.mesh;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::uint32_t index : mesh.triangles[t]) {
       if (index >= mesh.points.size()) {
         return wrong(name, content.lines[t], fmt::format("index {}", std::uint64_t{index} + 1),
                      fmt::format("at most {}, the number of points", mesh.points.size()));
       }
     }
-    if (hasArea(mesh, content.mesh.triangles[t])) mesh.triangles.push_back(content.mesh.triangles[t]);
   }
-  if (mesh.triangles.empty()) {
+  if (std::ranges::none_of(mesh.triangles, [&](const auto& triangle) { return hasArea(mesh, triangle); })) {
     return Error{fmt::format(
         "{}: found {} points ('v'), {} polylines ('l'), {} triangles of no size and no others; expected "
         "lines like 'f 1 2 3', the faces of a body",
-        name, mesh.points.size(), content.polylines, content.mesh.triangles.size())};
+        name, mesh.points.size(), content.polylines, mesh.triangles.size())};
   }
+  return std::move(mesh);
+}
+
+// What `read` makes of a file's bytes.
+template <class Read>
+Result<TriangleMesh> readFile(const std::filesystem::path& path, Read read) {
+  try {
+    const Result<std::vector<std::byte>> bytes = readWholeFile(path);
+    if (!bytes) return bytes.error();
+    return read(*bytes);
+  } catch (const std::bad_alloc&) {
+    return Error{fmt::format("{}: reading it needs more memory than there is", path.string())};
+  }
+}
+
+}  // namespace
+
+bool isObjMesh(const std::filesystem::path& path) { return endingOf(path) == ".obj"; }
+
+Result<TriangleMesh> readObjMesh(std::span<const std::byte> bytes, const std::filesystem::path& path,
+                                 double metresPerUnit) {
+  auto mesh = facesOf(bytes, path, metresPerUnit);
+  if (mesh) std::erase_if(mesh->triangles, [&](const auto& triangle) { return !hasArea(*mesh, triangle); });
   return mesh;
 }
 
 Result<TriangleMesh> readObjMesh(const std::filesystem::path& path, double metresPerUnit) {
-  try {
-    const Result<std::vector<std::byte>> bytes = readWholeFile(path);
-    if (!bytes) return bytes.error();
-    return readObjMesh(*bytes, path, metresPerUnit);
-  } catch (const std::bad_alloc&) {
-    return Error{fmt::format("{}: reading it needs more memory than there is", path.string())};
-  }
+  return readFile(path, [&](const auto& bytes) { return readObjMesh(bytes, path, metresPerUnit); });
+}
+
+Result<TriangleMesh> readObjFaces(const std::filesystem::path& path, double metresPerUnit) {
+  return readFile(path, [&](const auto& bytes) { return facesOf(bytes, path, metresPerUnit); });
 }
 
 }  // namespace ringlet

@@ -62,48 +62,60 @@ Affine GltfPlacement::map() const {
   return {turn.x * metresPerUnit, turn.y * metresPerUnit, turn.z * metresPerUnit, {}};
 }
 
-std::array<double, 4> GltfChannel::valueAt(double t) const {
-  const std::size_t width = this->width();
+template <class Values, class Linear>
+Values GltfChannel::mixedAt(double t, const Values& zero, Linear linear) const {
   const bool isCubic = interpolation == Interpolation::cubicSpline;
   // Of key k; part 0 the tangent in, 1 the value, 2 the tangent out.
   const auto part = [&](std::size_t k, std::size_t which) {
-    std::array<double, 4> found{};
+    Values found = zero;
     const std::size_t at = isCubic ? (k * 3 + which) * width : k * width;
     for (std::size_t c = 0; c < width; ++c) found[c] = values[at + c];
     return found;
   };
-  const auto asQuat = [](const Quatd& q) { return std::array<double, 4>{q.x, q.y, q.z, q.w}; };
-  const auto finished = [&](const std::array<double, 4>& v) {
-    return path == Path::rotation ? asQuat(unit(v)) : v;
-  };
   const auto after =
       static_cast<std::size_t>(std::upper_bound(seconds.begin(), seconds.end(), t) - seconds.begin());
-  if (after == 0) return finished(part(0, 1));
-  if (after == seconds.size()) return finished(part(after - 1, 1));
+  if (after == 0) return part(0, 1);
+  if (after == seconds.size()) return part(after - 1, 1);
   const std::size_t k = after - 1;
   const double span = seconds[after] - seconds[k], s = (t - seconds[k]) / span;
-  const std::array<double, 4> a = part(k, 1), b = part(after, 1);
-  switch (interpolation) {
-    case Interpolation::step:
-      // Times of keys are rounded to single precision: one that is all but there counts.
-      return finished(s > 0.999 ? b : a);
-    case Interpolation::linear: {
-      if (path == Path::rotation) return asQuat(slerp(unit(a), unit(b), s));
-      std::array<double, 4> mixed{};
-      for (std::size_t c = 0; c < width; ++c) mixed[c] = a[c] + (b[c] - a[c]) * s;
-      return mixed;
-    }
-    case Interpolation::cubicSpline:
-      break;
-  }
-  const std::array<double, 4> out = part(k, 2), in = part(after, 0);
+  const Values a = part(k, 1), b = part(after, 1);
+  // Times of keys are rounded to single precision: one that is all but there counts.
+  if (interpolation == Interpolation::step) return s > 0.999 ? b : a;
+  if (interpolation == Interpolation::linear) return linear(a, b, s);
+  const Values out = part(k, 2), in = part(after, 0);
   const double s2 = s * s, s3 = s2 * s;
-  std::array<double, 4> mixed{};
+  Values mixed = zero;
   for (std::size_t c = 0; c < width; ++c) {
     mixed[c] = (2 * s3 - 3 * s2 + 1) * a[c] + span * (s3 - 2 * s2 + s) * out[c] + (3 * s2 - 2 * s3) * b[c] +
                span * (s3 - s2) * in[c];
   }
-  return finished(mixed);
+  return mixed;
+}
+
+namespace {
+
+template <class Values>
+Values between(const Values& a, const Values& b, double s) {
+  Values mixed = a;
+  for (std::size_t c = 0; c < mixed.size(); ++c) mixed[c] = a[c] + (b[c] - a[c]) * s;
+  return mixed;
+}
+
+}  // namespace
+
+std::array<double, 4> GltfChannel::valueAt(double t) const {
+  using Values = std::array<double, 4>;
+  if (path != Path::rotation) return mixedAt(t, Values{}, between<Values>);
+  const auto asQuat = [](const Quatd& q) { return Values{q.x, q.y, q.z, q.w}; };
+  const auto turned = [&](const Values& a, const Values& b, double s) {
+    return asQuat(slerp(unit(a), unit(b), s));
+  };
+  return asQuat(unit(mixedAt(t, Values{}, turned)));
+}
+
+std::vector<double> GltfChannel::weightsAt(double t) const {
+  using Values = std::vector<double>;
+  return mixedAt(t, Values(width), between<Values>);
 }
 
 std::vector<std::string> GltfFile::names() const {
@@ -155,6 +167,8 @@ Affine GltfFile::localAt(std::size_t n, const GltfAnimation* animation, double t
           break;
         case GltfChannel::Path::scale:
           scale = {x, y, z};
+          break;
+        case GltfChannel::Path::weights:  // which are not among a node's
           break;
       }
     }

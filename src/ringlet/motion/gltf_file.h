@@ -28,30 +28,38 @@ struct GltfNode {
   Quatd rotation;
   std::optional<Affine> matrix;  // in place of the three; such a node is not animated
   std::optional<std::size_t> mesh, skin, camera;
+  std::vector<double> weights{};  // of its mesh's morph targets; none: the mesh's own
 };
 
 /// One quantity of one node over time.
 struct GltfChannel {
-  enum class Path { translation, rotation, scale };
+  enum class Path { translation, rotation, scale, weights };
   enum class Interpolation { linear, step, cubicSpline };
 
   std::size_t node = 0;
   Path path = Path::translation;
   Interpolation interpolation = Interpolation::linear;
   std::vector<double> seconds;  // at least one, none before the one before it
-  std::vector<double> values;   // of key k: 3, a rotation's 4; cubicSpline: tangent in, value, tangent out
+  std::vector<double> values;   // of key k: `width`; cubicSpline: tangent in, value, tangent out
+  std::size_t width = 3;        // a rotation's 4; of weights one for each morph target
 
-  std::size_t width() const { return path == Path::rotation ? 4 : 3; }
   /// As appendix C of the specification says; before the first key and after the last what they hold.
-  /// Rotations are of unit length.
+  /// Rotations are of unit length. Not for weights.
   std::array<double, 4> valueAt(double t) const;
+  /// The same of weights.
+  std::vector<double> weightsAt(double t) const;
+
+ private:
+  template <class Values, class Linear>
+  Values mixedAt(double t, const Values& zero, Linear linear) const;
 };
 
 struct GltfAnimation {
   std::string name;
-  std::vector<GltfChannel> channels;  // that move nodes; morph weights are left out
-  double firstSeconds = 0;            // the earliest key of all, and the last
-  double lastSeconds = 0;
+  std::vector<GltfChannel> channels;  // that move nodes
+  std::vector<GltfChannel> weights;   // of morph targets
+  double firstSeconds = 0;            // the earliest key of all that move nodes, and the last; of weights
+  double lastSeconds = 0;             // where there are no others
   std::vector<std::array<std::optional<std::size_t>, 3>> ofNode;  // channels by node and Path
 };
 
@@ -67,12 +75,20 @@ struct GltfMesh {
     double weight = 0;        // above 0; of a point they sum to 1
   };
 
+  /// Added to a point, times the target's weight.
+  struct Delta {
+    std::uint32_t point = 0;
+    Vec3d shift{};  // not 0
+  };
+
   std::string name;
   std::vector<Vec3d> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Influence> influences;            // point after point
   std::vector<std::uint32_t> influencesBefore;  // of point p: from [p] to [p + 1]; none: its node carries it
   std::uint32_t jointCount = 0;                 // that a skin must have at least
+  std::vector<std::vector<Delta>> morphs;       // of each morph target
+  std::vector<double> weights;                  // of these, at rest
   std::vector<std::string> warnings;            // about parts that were left out
   std::optional<Error> problem;                 // why it could not be read; then it is empty
 };

@@ -1,5 +1,5 @@
-// Implements the reading of motion/gltf_file.h. TinyGLTF takes the file apart; here every index and size it
-// found is checked and every number becomes a double. The one file that knows TinyGLTF, and holds its code.
+// Implements the reading of motion/gltf_file.h. TinyGLTF, whose code is compiled here, takes the file apart;
+// here and in gltf_accessor.h every index and size that it found is checked.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,30 +9,21 @@
 #include <fstream>  // TinyGLTF forgets it where it reads no files
 #include <limits>
 #include <new>
-#include <numbers>
-#include <type_traits>
 
 #include "ringlet/base/quoted.h"
 #include "ringlet/base/whole_file.h"
+#include "ringlet/motion/gltf_accessor.h"
 #include "ringlet/motion/gltf_buffers.h"
 #include "ringlet/motion/gltf_bytes.h"
 #include "ringlet/motion/gltf_file.h"
 
-// Under a name of our own: a program that uses Ringlet may hold a TinyGLTF too.
-#define tinygltf ringlet_tinygltf
 #define TINYGLTF_IMPLEMENTATION
-#define TINYGLTF_NO_STB_IMAGE
-#define TINYGLTF_NO_STB_IMAGE_WRITE
-#define TINYGLTF_NO_EXTERNAL_IMAGE
-#define TINYGLTF_NO_FS
 #include <tiny_gltf.h>
+#undef TINYGLTF_IMPLEMENTATION
 
 namespace ringlet {
 namespace {
 
-namespace gltf = ringlet_tinygltf;
-
-constexpr const char* kMeshopt = "EXT_meshopt_compression";
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
 
 // In a message: what TinyGLTF says has many lines, and pieces of the file.
@@ -50,156 +41,6 @@ std::string oneLine(std::string_view text) {
   return line;
 }
 
-std::optional<std::size_t> indexOf(int index, std::size_t count) {
-  if (index < 0 || static_cast<std::size_t>(index) >= count) return std::nullopt;
-  return static_cast<std::size_t>(index);
-}
-
-// The numbers of an accessor, element after element.
-struct Numbers {
-  std::size_t width = 0, count = 0;
-  std::vector<double> values;
-
-  Vec3d vec3(std::size_t i) const { return {values[3 * i], values[3 * i + 1], values[3 * i + 2]}; }
-};
-
-template <class T>
-double numberOf(const unsigned char* bytes, bool isNormalized) {
-  T value;
-  std::memcpy(&value, bytes, sizeof value);
-  const auto number = static_cast<double>(value);
-  if constexpr (std::is_floating_point_v<T>) return number;
-  return isNormalized ? std::max(number / static_cast<double>(std::numeric_limits<T>::max()), -1.0) : number;
-}
-
-struct Component {
-  std::size_t size;
-  double (*read)(const unsigned char*, bool);
-};
-
-std::optional<Component> componentOf(int type) {
-  switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-      return Component{1, numberOf<std::int8_t>};
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return Component{1, numberOf<std::uint8_t>};
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-      return Component{2, numberOf<std::int16_t>};
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return Component{2, numberOf<std::uint16_t>};
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-      return Component{4, numberOf<std::uint32_t>};
-    case TINYGLTF_COMPONENT_TYPE_FLOAT:
-      return Component{4, numberOf<float>};
-    default:
-      return std::nullopt;
-  }
-}
-
-// `count` elements of a buffer view, `step` bytes from one to the next (0: `size`). Nothing else looks into
-// buffers.
-Result<std::span<const unsigned char>> viewedBytes(const gltf::Model& model, int view, std::size_t offset,
-                                                   std::size_t count, std::size_t size, std::size_t& step) {
-  const auto v = indexOf(view, model.bufferViews.size());
-  if (!v) return Error{fmt::format("there is no buffer view {}", view)};
-  const gltf::BufferView& found = model.bufferViews[*v];
-  if (found.extensions.contains(kMeshopt))
-    return Error{fmt::format("buffer view {} is compressed by {}, which is not read; write it without", view,
-                             kMeshopt)};
-  const auto b = indexOf(found.buffer, model.buffers.size());
-  if (!b) return Error{fmt::format("buffer view {} is of buffer {}, which is not there", view, found.buffer)};
-  const std::vector<unsigned char>& data = model.buffers[*b].data;
-  if (found.byteOffset > data.size() || found.byteLength > data.size() - found.byteOffset)
-    return Error{fmt::format("buffer view {} ends beyond its buffer of {} bytes", view, data.size())};
-  step = found.byteStride > 0 ? found.byteStride : size;
-  if (step < size)
-    return Error{fmt::format("buffer view {} steps {} bytes over elements of {}", view, step, size)};
-  const std::size_t length = found.byteLength;
-  if (offset > length || size > length - offset || (count - 1) > (length - offset - size) / step) {
-    return Error{fmt::format("{} elements of {} bytes from byte {} on end beyond buffer view {} of {} bytes",
-                             count, size, offset, view, length)};
-  }
-  return std::span(data).subspan(found.byteOffset + offset, (count - 1) * step + size);
-}
-
-Status readSparse(const gltf::Model& model, const gltf::Accessor& accessor, const Component& component,
-                  Numbers& numbers) {
-  const auto& sparse = accessor.sparse;
-  if (sparse.count < 1 || static_cast<std::size_t>(sparse.count) > numbers.count)
-    return Error{fmt::format("{} of its {} elements are sparse", sparse.count, numbers.count)};
-  const auto count = static_cast<std::size_t>(sparse.count);
-  const auto index = componentOf(sparse.indices.componentType);
-  if (!index || sparse.indices.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT)
-    return Error{"its sparse indices are no whole numbers"};
-  if (sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0)
-    return Error{"its sparse elements begin before their buffer"};
-  std::size_t indexStep = 0, valueStep = 0;
-  const auto indices =
-      viewedBytes(model, sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset),
-                  count, index->size, indexStep);
-  if (!indices) return indices.error();
-  const auto values =
-      viewedBytes(model, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset), count,
-                  component.size * numbers.width, valueStep);
-  if (!values) return values.error();
-  for (std::size_t k = 0; k < count; ++k) {
-    const double at = index->read(indices->data() + k * indexStep, false);
-    if (!(at >= 0 && at < static_cast<double>(numbers.count)))
-      return Error{fmt::format("its sparse element {} is number {} of {}", k, at, numbers.count)};
-    for (std::size_t c = 0; c < numbers.width; ++c) {
-      numbers.values[static_cast<std::size_t>(at) * numbers.width + c] =
-          component.read(values->data() + k * valueStep + c * component.size, accessor.normalized);
-    }
-  }
-  return {};
-}
-
-Result<Numbers> readNumbers(const gltf::Model& model, const gltf::Accessor& accessor, std::size_t width) {
-  const int components = gltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
-  if (components != static_cast<int>(width))
-    return Error{fmt::format("its elements have {} numbers, not {}", components, width)};
-  const auto component = componentOf(accessor.componentType);
-  if (!component) return Error{fmt::format("numbers of type {} are not glTF's", accessor.componentType)};
-  // Of bytes, a matrix has gaps; nobody writes one.
-  if (width == 16 && accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
-    return Error{"its matrices are not of floats"};
-  Numbers numbers{width, accessor.count, {}};
-  if (numbers.count == 0) return Error{"it is empty"};
-  if (accessor.bufferView < 0) {
-    constexpr std::size_t kMostZeros = 1 << 20;  // all zero but for a few: nothing in the file bounds them
-    if (!accessor.sparse.isSparse || numbers.count > kMostZeros) return Error{"it has no buffer view"};
-    numbers.values.resize(numbers.count * width);
-  } else {
-    std::size_t step = 0;
-    const auto bytes = viewedBytes(model, accessor.bufferView, accessor.byteOffset, numbers.count,
-                                   component->size * width, step);
-    if (!bytes) return bytes.error();
-    numbers.values.reserve(numbers.count * width);
-    for (std::size_t i = 0; i < numbers.count; ++i) {
-      for (std::size_t c = 0; c < width; ++c)
-        numbers.values.push_back(
-            component->read(bytes->data() + i * step + c * component->size, accessor.normalized));
-    }
-  }
-  if (accessor.sparse.isSparse) {
-    if (Status status = readSparse(model, accessor, *component, numbers); !status) return status.error();
-  }
-  for (std::size_t k = 0; k < numbers.values.size(); ++k) {
-    if (!std::isfinite(numbers.values[k])) return Error{fmt::format("number {} is not finite", k)};
-  }
-  return numbers;
-}
-
-Result<Numbers> readAccessor(const gltf::Model& model, int accessor, std::size_t width,
-                             std::string_view what) {
-  const auto a = indexOf(accessor, model.accessors.size());
-  if (!a) return Error{fmt::format("{}: there is no accessor {}", what, accessor)};
-  auto numbers = readNumbers(model, model.accessors[*a], width);
-  if (!numbers) return Error{fmt::format("{}: accessor {}: {}", what, accessor, numbers.error().message)};
-  return numbers;
-}
-
-// Column by column, as glTF stores them. The last row is taken to be 0 0 0 1.
 Affine matrixOf(const double* m) {
   return {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
 }
@@ -208,12 +49,13 @@ Result<GltfNode> readNode(const gltf::Model& model, std::size_t n) {
   const gltf::Node& from = model.nodes[n];
   GltfNode node;
   node.name = from.name;
+  node.weights = from.weights;
   const auto sized = [&](const std::vector<double>& numbers, std::size_t size) {
     return (numbers.empty() || numbers.size() == size) &&
            std::ranges::all_of(numbers, [](double x) { return std::isfinite(x); });
   };
   if (!sized(from.translation, 3) || !sized(from.rotation, 4) || !sized(from.scale, 3) ||
-      !sized(from.matrix, 16))
+      !sized(from.matrix, 16) || !sized(from.weights, from.weights.size()))
     return Error{fmt::format("node {}: its place is not 3, 4 and 3 or 16 numbers", n)};
   if (!from.matrix.empty()) node.matrix = matrixOf(from.matrix.data());
   if (!from.translation.empty())
@@ -269,10 +111,11 @@ Status readTree(const gltf::Model& model, GltfFile& file) {
 }
 
 Result<GltfChannel> readChannel(const gltf::Model& model, const gltf::AnimationSampler& sampler,
-                                std::size_t node, GltfChannel::Path path) {
+                                std::size_t node, GltfChannel::Path path, std::size_t width) {
   GltfChannel channel;
   channel.node = node;
   channel.path = path;
+  channel.width = width;
   using Interpolation = GltfChannel::Interpolation;
   if (sampler.interpolation == "STEP") {
     channel.interpolation = Interpolation::step;
@@ -283,10 +126,12 @@ Result<GltfChannel> readChannel(const gltf::Model& model, const gltf::AnimationS
   }
   auto seconds = readAccessor(model, sampler.input, 1, "times");
   if (!seconds) return seconds.error();
-  auto values = readAccessor(model, sampler.output, channel.width(), "values");
+  const bool isWeights = path == GltfChannel::Path::weights;  // which are numbers, one after the other
+  auto values = readAccessor(model, sampler.output, isWeights ? 1 : width, "values");
   if (!values) return values.error();
   const std::size_t keys = seconds->count;
-  const std::size_t parts = channel.interpolation == Interpolation::cubicSpline ? 3 : 1;
+  const std::size_t parts =
+      (channel.interpolation == Interpolation::cubicSpline ? 3 : 1) * (isWeights ? width : 1);
   if (values->count / parts < keys)
     return Error{fmt::format("{} keys have {} values, not {}", keys, values->count, keys * parts)};
   for (std::size_t k = 0; k + 1 < keys; ++k) {
@@ -297,6 +142,15 @@ Result<GltfChannel> readChannel(const gltf::Model& model, const gltf::AnimationS
   channel.seconds = std::move(seconds->values);
   channel.values = std::move(values->values);
   return channel;
+}
+
+// The morph targets of the node's mesh; 0 where it has none.
+std::size_t morphCount(const gltf::Model& model, const GltfNode& node) {
+  std::size_t count = 0;
+  if (!node.mesh || *node.mesh >= model.meshes.size()) return count;
+  for (const gltf::Primitive& primitive : model.meshes[*node.mesh].primitives)
+    count = std::max(count, primitive.targets.size());
+  return count;
 }
 
 Result<GltfAnimation> readAnimation(const gltf::Model& model, const GltfFile& file,
@@ -311,8 +165,9 @@ Result<GltfAnimation> readAnimation(const gltf::Model& model, const GltfFile& fi
     const auto path = word == "translation" ? std::optional(Path::translation)
                       : word == "rotation"  ? std::optional(Path::rotation)
                       : word == "scale"     ? std::optional(Path::scale)
+                      : word == "weights"   ? std::optional(Path::weights)
                                             : std::nullopt;
-    if (!path) continue;  // morph weights, and what extensions animate
+    if (!path) continue;  // what extensions animate
     const auto node = indexOf(from.channels[c].target_node, file.nodes.size());
     const auto sampler = indexOf(from.channels[c].sampler, from.samplers.size());
     if (!node || !sampler) {
@@ -320,16 +175,30 @@ Result<GltfAnimation> readAnimation(const gltf::Model& model, const GltfFile& fi
                                from.channels[c].target_node, file.nodes.size(), from.channels[c].sampler,
                                from.samplers.size())};
     }
-    if (file.nodes[*node].matrix)
+    const bool isWeights = path == Path::weights;
+    const std::size_t targets = isWeights ? morphCount(model, file.nodes[*node]) : 0;
+    if (isWeights && targets == 0) continue;
+    if (file.nodes[*node].matrix && !isWeights)
       return Error{fmt::format("channel {} animates node {}, which has a matrix", c, *node)};
-    auto channel = readChannel(model, from.samplers[*sampler], *node, *path);
+    const std::size_t width = isWeights ? targets : path == Path::rotation ? 4 : 3;
+    auto channel = readChannel(model, from.samplers[*sampler], *node, *path, width);
     if (!channel) return Error{fmt::format("channel {}: {}", c, channel.error().message)};
+    if (isWeights) {
+      animation.weights.push_back(std::move(*channel));
+      continue;
+    }
     first = std::min(first, channel->seconds.front());
     last = std::max(last, channel->seconds.back());
     animation.ofNode[*node][static_cast<std::size_t>(*path)] = animation.channels.size();
     animation.channels.push_back(std::move(*channel));
   }
-  if (!animation.channels.empty()) animation.firstSeconds = first, animation.lastSeconds = last;
+  if (animation.channels.empty()) {
+    for (const GltfChannel& weights : animation.weights) {
+      first = std::min(first, weights.seconds.front());
+      last = std::max(last, weights.seconds.back());
+    }
+  }
+  if (first <= last) animation.firstSeconds = first, animation.lastSeconds = last;
   return animation;
 }
 
@@ -393,6 +262,24 @@ Error dracoProblem() {
   return Error{fmt::format("it is compressed by {}, which is not read; write it without", kDraco)};
 }
 
+// The shifts of points `first` and on in each morph target; one without POSITION has none.
+Status readMorphs(const gltf::Model& model, const gltf::Primitive& from, std::size_t first, std::size_t count,
+                  GltfMesh& mesh) {
+  mesh.morphs.resize(std::max(mesh.morphs.size(), from.targets.size()));
+  for (std::size_t m = 0; m < from.targets.size(); ++m) {
+    const auto position = from.targets[m].find("POSITION");
+    if (position == from.targets[m].end()) continue;
+    const auto shifts = readAccessor(model, position->second, 3, "POSITION of a morph target");
+    if (!shifts) return shifts.error();
+    if (shifts->count != count)
+      return Error{fmt::format("morph target {} has {} points, not {}", m, shifts->count, count)};
+    for (std::size_t p = 0; p < count; ++p)
+      if (shifts->vec3(p) != Vec3d{})
+        mesh.morphs[m].push_back({static_cast<std::uint32_t>(first + p), shifts->vec3(p)});
+  }
+  return {};
+}
+
 Status readPrimitive(const gltf::Model& model, const gltf::Primitive& from, GltfMesh& mesh) {
   if (from.extensions.contains(kDraco)) return dracoProblem();
   const auto position = from.attributes.find("POSITION");
@@ -426,8 +313,7 @@ Status readPrimitive(const gltf::Model& model, const gltf::Primitive& from, Gltf
   if (Status status = readInfluences(model, from, points->count, mesh, weightless); !status) return status;
   if (weightless > 0)
     mesh.warnings.push_back(fmt::format("{} points follow no joint; their node carries them", weightless));
-  if (!from.targets.empty()) mesh.warnings.push_back("its morph targets are left out");
-  return {};
+  return readMorphs(model, from, first, points->count, mesh);
 }
 
 GltfMesh readMesh(const gltf::Model& model, const gltf::Mesh& from) {
@@ -447,6 +333,9 @@ GltfMesh readMesh(const gltf::Model& model, const gltf::Mesh& from) {
     }
   }
   mesh.name = from.name;
+  mesh.weights = from.weights;
+  if (!std::ranges::all_of(mesh.weights, [](double x) { return std::isfinite(x); }))
+    mesh.problem = Error{"its weights of morph targets are not finite"};
   return mesh;
 }
 

@@ -30,7 +30,7 @@ BodyPose rootPoseOn(const HeadPose& head, const HeadPose& scalp, const HeadPose&
           normalized(toHead * scalp.rotation * headAtBinding.rotation)};
 }
 
-Result<HeadScalp> HeadScalp::bind(std::shared_ptr<const SkinnedMesh> mesh, std::span<const Vec3d> roots,
+Result<HeadScalp> HeadScalp::bind(std::shared_ptr<const MeshMotion> mesh, std::span<const Vec3d> roots,
                                   const Motion& head, const HeadScalpChoice& choice) {
   const double first = mesh->firstSeconds();
   const HeadPose pose = head.poseAt(choice.start);

@@ -10,8 +10,8 @@
 
 #include "ringlet/base/result.h"
 #include "ringlet/bodies/triangle_mesh.h"
+#include "ringlet/motion/mesh_motion.h"
 #include "ringlet/motion/scalp.h"
-#include "ringlet/motion/skinned_mesh.h"
 #include "ringlet/scene/body.h"
 #include "ringlet/scene/head_pose.h"
 #include "ringlet/scene/motion.h"
@@ -31,7 +31,7 @@ class HeadScalp {
  public:
   /// `roots` in the groom [m]: with the head where it is at choice.start they are on the mesh at its first
   /// key. Errors: as for Scalp::bind.
-  static Result<HeadScalp> bind(std::shared_ptr<const SkinnedMesh> mesh, std::span<const Vec3d> roots,
+  static Result<HeadScalp> bind(std::shared_ptr<const MeshMotion> mesh, std::span<const Vec3d> roots,
                                 const Motion& head, const HeadScalpChoice& choice = {});
 
   /// Each root's at t of the head's time [s]. BodyPose{} until choice.start: the mesh has no way before its

@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <memory>
 #include <system_error>
 #include <utility>
 
+#include "ringlet/base/file_ending.h"
 #include "ringlet/motion/bvh_file.h"
 #include "ringlet/motion/bvh_stance.h"
 #include "ringlet/motion/gltf_file.h"
@@ -111,8 +111,7 @@ Result<Keyframes> readGltfKeys(const MotionFileChoice& choice, bool upIsZ,
 }  // namespace
 
 MotionFileKind motionFileKind(const std::string& word) {
-  std::string extension = std::filesystem::path(word).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = endingOf(word);
   if (extension == ".bvh") return MotionFileKind::bvh;
   const bool isGltf = extension == ".gltf" || extension == ".glb" || extension == ".vrm";
   return isGltf ? MotionFileKind::gltf : MotionFileKind::none;

@@ -27,14 +27,14 @@ struct Corners {
   }
 };
 
-Corners cornersOf(const SkinnedMesh& mesh, std::span<const Vec3d> points, std::size_t triangle) {
+Corners cornersOf(const MeshMotion& mesh, std::span<const Vec3d> points, std::size_t triangle) {
   const auto [a, b, c] = mesh.triangles()[triangle];
   return {points[a], points[b], points[c]};
 }
 
 // The triangles roots can be bound to: those with an area have a frame. `indices`: which of the mesh they
 // are.
-TriangleMesh groundOf(const SkinnedMesh& mesh, const std::vector<Vec3d>& points,
+TriangleMesh groundOf(const MeshMotion& mesh, const std::vector<Vec3d>& points,
                       std::vector<std::size_t>& indices) {
   TriangleMesh ground{points, {}};
   for (std::size_t k = 0; k < mesh.triangles().size(); ++k) {
@@ -49,7 +49,7 @@ TriangleMesh groundOf(const SkinnedMesh& mesh, const std::vector<Vec3d>& points,
 
 }  // namespace
 
-Result<Scalp> Scalp::bind(std::shared_ptr<const SkinnedMesh> mesh, std::span<const Vec3d> roots, double t0,
+Result<Scalp> Scalp::bind(std::shared_ptr<const MeshMotion> mesh, std::span<const Vec3d> roots, double t0,
                           double farthest) {
   RINGLET_ASSERT(mesh, "a scalp is a mesh");
   const std::vector<Vec3d> points = mesh->pointsAt(t0);

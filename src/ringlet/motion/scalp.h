@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "ringlet/base/result.h"
-#include "ringlet/motion/skinned_mesh.h"
+#include "ringlet/motion/mesh_motion.h"
 #include "ringlet/scene/head_pose.h"
 
 namespace ringlet {
@@ -23,14 +23,14 @@ class Scalp {
  public:
   /// `roots` in the world as they are at t0 of the mesh's time [m, s]. An Error counts those that are further
   /// than `farthest` [m] from every triangle, or not finite, and names the worst.
-  static Result<Scalp> bind(std::shared_ptr<const SkinnedMesh> mesh, std::span<const Vec3d> roots, double t0,
+  static Result<Scalp> bind(std::shared_ptr<const MeshMotion> mesh, std::span<const Vec3d> roots, double t0,
                             double farthest);
 
   /// The rigid motion of each root since t0: all are HeadPose{} at t0. Where a triangle loses its area its
   /// frame is any across what is left of it. Cost: linear in roots and mesh.
   std::vector<HeadPose> posesAt(double t) const;
 
-  const std::shared_ptr<const SkinnedMesh>& mesh() const { return mesh_; }
+  const std::shared_ptr<const MeshMotion>& mesh() const { return mesh_; }
   std::size_t rootCount() const { return bindings_.size(); }
   /// The triangle a root is bound to.
   std::size_t triangleOf(std::size_t root) const { return bindings_[root].triangle; }
@@ -47,7 +47,7 @@ class Scalp {
 
   Scalp() = default;
 
-  std::shared_ptr<const SkinnedMesh> mesh_;
+  std::shared_ptr<const MeshMotion> mesh_;
   std::vector<Binding> bindings_;
   double farthestRoot_ = 0;
 };

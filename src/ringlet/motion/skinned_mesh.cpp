@@ -66,7 +66,25 @@ Result<SkinnedMesh> SkinnedMesh::of(std::shared_ptr<const GltfFile> file, const 
   return mesh;
 }
 
+std::vector<Vec3d> SkinnedMesh::shapeAt(double t) const {
+  std::vector<Vec3d> points = mesh_->points;
+  if (mesh_->morphs.empty()) return points;
+  const std::vector<double>& own = file_->nodes[node_].weights;
+  std::vector<double> weights = own.empty() ? mesh_->weights : own;
+  if (animation_) {
+    const auto found = std::ranges::find(animation_->weights, node_, &GltfChannel::node);
+    if (found != animation_->weights.end()) weights = found->weightsAt(t);
+  }
+  weights.resize(mesh_->morphs.size());
+  for (std::size_t m = 0; m < weights.size(); ++m) {
+    if (weights[m] == 0) continue;
+    for (const GltfMesh::Delta& delta : mesh_->morphs[m]) points[delta.point] += delta.shift * weights[m];
+  }
+  return points;
+}
+
 std::vector<Vec3d> SkinnedMesh::pointsAt(double t) const {
+  const std::vector<Vec3d> shape = shapeAt(t);
   const std::vector<Affine> worlds = file_->worldsAt(animation_, t);
   std::vector<Affine> joints;  // world from the mesh in its rest pose
   if (skin_) {
@@ -77,7 +95,7 @@ std::vector<Vec3d> SkinnedMesh::pointsAt(double t) const {
   std::vector<Vec3d> points;
   points.reserve(pointCount());
   for (std::size_t p = 0; p < pointCount(); ++p) {
-    const Vec3d rest = mesh_->points[p];
+    const Vec3d rest = shape[p];
     const std::size_t first = mesh_->influencesBefore[p], last = mesh_->influencesBefore[p + 1];
     if (!skin_ || first == last) {
       points.push_back(node(rest));

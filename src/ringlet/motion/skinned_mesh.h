@@ -1,10 +1,8 @@
-// SkinnedMesh: a mesh of a glTF file in the world over time, carried by the joints of its skin or by its
-// node.
+// SkinnedMesh: a mesh of a glTF file in the world over time: shaped by its morph targets, then carried by the
+// joints of its skin or by its node.
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -14,6 +12,7 @@
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/motion/gltf_file.h"
+#include "ringlet/motion/mesh_motion.h"
 
 namespace ringlet {
 
@@ -24,25 +23,25 @@ struct SkinnedMeshChoice {
 };
 
 /// Times are the animation's own [s]: a head's Keyframes of the same file begin at firstSeconds().
-class SkinnedMesh {
+class SkinnedMesh final : public MeshMotion {
  public:
   /// Errors: no such mesh (lists what there is); one that could not be read, or has no triangles; a skin
   /// with fewer joints than its points follow; points that are not finite at the first key.
   static Result<SkinnedMesh> of(std::shared_ptr<const GltfFile> file, const SkinnedMeshChoice& choice = {});
 
-  const std::vector<std::array<std::uint32_t, 3>>& triangles() const { return mesh_->triangles; }
-  std::size_t pointCount() const { return mesh_->points.size(); }
-  double firstSeconds() const { return animation_ ? animation_->firstSeconds : 0; }
-  double lastSeconds() const { return animation_ ? animation_->lastSeconds : 0; }
+  const std::vector<Triangle>& triangles() const override { return mesh_->triangles; }
+  std::size_t pointCount() const override { return mesh_->points.size(); }
+  double firstSeconds() const override { return animation_ ? animation_->firstSeconds : 0; }
+  double lastSeconds() const override { return animation_ ? animation_->lastSeconds : 0; }
   /// What of the mesh was left out.
-  const std::vector<std::string>& warnings() const { return mesh_->warnings; }
+  const std::vector<std::string>& warnings() const override { return mesh_->warnings; }
 
-  /// All points in the world [m], by linear blend skinning; before the first key and after the last they
-  /// stay. Cost: linear in points and nodes.
-  std::vector<Vec3d> pointsAt(double t) const;
+  /// Morph targets first, then linear blend skinning. Cost: linear in points, shifts of targets and nodes.
+  std::vector<Vec3d> pointsAt(double t) const override;
 
  private:
   SkinnedMesh() = default;
+  std::vector<Vec3d> shapeAt(double t) const;  // before the skin
 
   std::shared_ptr<const GltfFile> file_;  // owns the next three
   const GltfMesh* mesh_ = nullptr;

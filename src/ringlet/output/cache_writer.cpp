@@ -8,16 +8,13 @@
 
 #include "ringlet/base/assert.h"
 #include "ringlet/base/little_endian.h"
+#include "ringlet/base/text_of.h"
 #include "ringlet/output/cache_reader.h"
 
 namespace ringlet {
 namespace {
 
 using cache::ChunkKind;
-
-std::string_view textOf(std::span<const std::byte> bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
 
 }  // namespace
 

@@ -11,21 +11,16 @@
 
 #include "ringlet/base/assert.h"
 #include "ringlet/base/little_endian.h"
+#include "ringlet/base/pc2_format.h"
+#include "ringlet/base/text_of.h"
 #include "ringlet/groom/obj_file.h"
 
 namespace ringlet {
 namespace {
 
-constexpr std::string_view kMagic{"POINTCACHE2\0", 12};
-constexpr std::uint64_t kHeaderBytes = 32, kCountAt = 28, kPointBytes = 12;
-
-std::string_view textOf(std::span<const std::byte> bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 std::vector<std::byte> headerOf(const Groom& topology, int frames) {
   std::vector<std::byte> bytes;
-  for (const char c : kMagic) bytes.push_back(static_cast<std::byte>(c));
+  for (const char c : kPc2Magic) bytes.push_back(static_cast<std::byte>(c));
   appendU32(bytes, 1);
   appendU32(bytes, topology.firstPoint.back());
   appendF32(bytes, 1);
@@ -50,12 +45,12 @@ Result<Pc2Writer> Pc2Writer::resume(const std::filesystem::path& path, const Gro
     return writer;
   }
   writer.frameCount_ = frameCount;  // what is refused stays as it is
-  const auto header = writer.file_.readAt(0, kHeaderBytes);
+  const auto header = writer.file_.readAt(0, kPc2HeaderBytes);
   if (!header) return header.error();
   const auto last = writer.file_.readAt(writer.endOf(frameCount) - 1, 1);
   if (!last) return last.error();
-  const bool isOurs =
-      header->size() == kHeaderBytes && header->substr(0, kCountAt) == textOf(expected).substr(0, kCountAt);
+  const bool isOurs = header->size() == kPc2HeaderBytes &&
+                      header->substr(0, kPc2CountAt) == textOf(expected).substr(0, kPc2CountAt);
   if (!isOurs || last->empty()) {
     return Error{
         fmt::format(
@@ -76,13 +71,13 @@ Pc2Writer::~Pc2Writer() {
 }
 
 std::uint64_t Pc2Writer::endOf(int frame) const {
-  return kHeaderBytes + static_cast<std::uint64_t>(frame) * kPointBytes * topology_.firstPoint.back();
+  return kPc2HeaderBytes + static_cast<std::uint64_t>(frame) * kPc2PointBytes * topology_.firstPoint.back();
 }
 
 Status Pc2Writer::addFrame(std::span<const Vec3f> points, const UsdTransform&) {
   RINGLET_ASSERT(points.size() == topology_.firstPoint.back(), "one point per particle of the groom");
   std::vector<std::byte> bytes;
-  bytes.reserve(kPointBytes * points.size());
+  bytes.reserve(kPc2PointBytes * points.size());
   for (const Vec3f p : points) {
     for (const float number : {p.x, p.y, p.z}) appendF32(bytes, number);
   }
@@ -106,7 +101,7 @@ Status Pc2Writer::addFrame(std::span<const Vec3f> points, const UsdTransform&) {
 
 Status Pc2Writer::writeCount() {
   const std::vector<std::byte> header = headerOf(topology_, frameCount_);
-  return file_.writeAt(kCountAt, textOf(header).substr(kCountAt));
+  return file_.writeAt(kPc2CountAt, textOf(header).substr(kPc2CountAt));
 }
 
 Status Pc2Writer::finish() {

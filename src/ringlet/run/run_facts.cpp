@@ -15,6 +15,7 @@
 
 #include "ringlet/base/whole_file.h"
 #include "ringlet/motion/gltf_buffers.h"
+#include "ringlet/motion/mesh_motion_file.h"
 #include "ringlet/motion/motion_file.h"
 #include "ringlet/output/animation_writer.h"
 #include "ringlet/rest/material_file.h"
@@ -63,8 +64,12 @@ std::vector<fs::path> inputFilesOf(const fs::path& input, const SceneFile& scene
   const auto add = [&](const fs::path& file) { files.insert(file); };
   if (!input.empty()) add(input);
   forEachFileOf(std::as_const(asked), add);
-  // No other file that a scene names refers to further files. A scalp is glTF, whatever its ending.
+  // No other file that a scene names refers to further files. A scalp may be glTF, whatever its ending.
   for (const fs::path& file : std::vector(files.begin(), files.end())) {
+    if (isMeshSequence(file)) {
+      files.erase(file);
+      std::ranges::for_each(meshSequenceFiles(file), add);
+    }
     if (file == scene.scalp.file || motionFileKind(file.string()) == MotionFileKind::gltf)
       std::ranges::for_each(gltfBufferFiles(file), add);
   }

@@ -1,5 +1,6 @@
-// UsdLayer: what a USD file says of its prims, as far as strands of hair need it, from text (usda_file.h) or
-// from a crate (usdc_file.h). usd_groom.h makes a groom of it.
+// UsdLayer: what a USD file says of its prims, as far as strands of hair or a mesh that moves need it, from
+// text (usda_file.h) or from a crate (usdc_file.h). usd_groom.h makes a groom of it, motion/usd_mesh.h a
+// mesh.
 #pragma once
 
 #include <cstddef>
@@ -29,6 +30,11 @@ struct UsdSamplePlace {
   std::uint64_t rep = 0;  // the value's 64 bits (usdc_format.h)
 };
 
+struct UsdSample {
+  double time = 0;
+  UsdValue value{};
+};
+
 struct UsdAttribute {
   std::string_view name;
   UsdValue value{};                      // the first sample's, where it has samples
@@ -36,6 +42,7 @@ struct UsdAttribute {
   std::optional<double> time{};          // of the sample
   std::optional<double> emptyTime{};     // of a sample before it that is empty (mayBeginEmpty)
   std::vector<UsdSamplePlace> places{};  // of all samples, where these are asked for in place of the value
+  std::vector<UsdSample> samples{};      // all, by rising time, where these are asked for
   std::string_view type{}, interpolation{};  // "color3f[]", "uniform"; "" for none stated
   std::string_view drivenBy{};               // "a connection" or "a spline"; empty for neither
 };
@@ -66,12 +73,20 @@ inline bool isUsdValue(std::string_view name) {
   return name == "widths" || name == "ids" || name.starts_with("primvars:");
 }
 
-/// Whether usd_groom.h looks at the attribute of a prim of this type; all others are read over. Values too,
-/// where these are wanted; widths always are.
-inline bool isKeptUsdAttribute(std::string_view primType, std::string_view name, bool keepsValues) {
-  if (primType == "BasisCurves" && (name == "widths" || (keepsValues && isUsdValue(name)))) return true;
+/// What of a file is kept: of strands their first samples; of meshes all.
+enum class UsdContent { strands, strandsAndValues, meshes };
+
+/// Whether the attribute of a prim of this type is kept; all others are read over. Widths of strands always
+/// are.
+inline bool isKeptUsdAttribute(std::string_view primType, std::string_view name, UsdContent content) {
   if (name == "xformOpOrder" || name == "visibility" || name == "purpose" || name.starts_with("xformOp:"))
     return true;
+  if (content == UsdContent::meshes)
+    return primType == "Mesh" &&
+           (name == "points" || name == "faceVertexCounts" || name == "faceVertexIndices" ||
+            name == "orientation" || name == "subdivisionScheme");
+  const bool keepsValues = content == UsdContent::strandsAndValues;
+  if (primType == "BasisCurves" && (name == "widths" || (keepsValues && isUsdValue(name)))) return true;
   return primType == "BasisCurves" && (name == "points" || name == "curveVertexCounts" || name == "type" ||
                                        name == "basis" || name == "wrap");
 }

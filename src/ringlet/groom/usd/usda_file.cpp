@@ -48,8 +48,8 @@ bool holds(const Range& range, std::string_view word) {
 
 class UsdaReader {
  public:
-  UsdaReader(std::string_view text, const std::string& name, bool keepsValues)
-      : text_(text), name_(name), keepsValues_(keepsValues) {}
+  UsdaReader(std::string_view text, const std::string& name, UsdContent content)
+      : text_(text), name_(name), content_(content) {}
 
   Result<UsdLayer> read() {
     if (!isUsda(text_)) return wanted("'#usda 1.0'");
@@ -263,7 +263,28 @@ class UsdaReader {
   }
 
   // { 1: value, 2: value }: the earliest is kept, of what may begin empty the earliest that is not.
+  // All samples, put in order.
+  Status readEverySample(UsdAttribute& attribute) {
+    if (!accept('{')) return wanted("'{'");
+    while (!accept('}')) {
+      auto time = takeNumber();
+      if (!time) return time.error();
+      if (!std::isfinite(*time)) return wanted("a finite time");
+      if (!accept(':')) return wanted("':'");
+      UsdSample& sample = attribute.samples.emplace_back(UsdSample{.time = *time});
+      if (Status read = readValue(sample.value); !read) return read;
+      if (!accept(',') && peek() != '}') return wanted("',' or '}'");
+    }
+    std::ranges::stable_sort(attribute.samples, {}, &UsdSample::time);
+    if (attribute.samples.empty()) return {};
+    attribute.isSampled = attribute.samples.size() > 1;
+    attribute.time = attribute.samples.front().time;
+    attribute.value = attribute.samples.front().value;
+    return {};
+  }
+
   Status readSamples(UsdAttribute& attribute) {
+    if (content_ == UsdContent::meshes) return readEverySample(attribute);
     if (!accept('{')) return wanted("'{'");
     const bool mayBeEmpty = mayBeginEmpty(attribute.name);
     const auto isEmpty = [](const UsdValue& value) { return value.numbers.empty() && value.texts.empty(); };
@@ -337,6 +358,12 @@ class UsdaReader {
         auto number = takeNumber();
         if (!number) return number.error();
         layer_.metresPerUnit = *number;
+        return {};
+      }
+      if (key == "timeCodesPerSecond") {
+        auto number = takeNumber();
+        if (!number) return number.error();
+        layer_.timeCodesPerSecond = *number;
         return {};
       }
       if (holds(std::array<std::string_view, 2>{"subLayers", "relocates"}, key))
@@ -463,7 +490,7 @@ class UsdaReader {
     const std::string_view part = accept('.') ? takeName() : "";
 
     UsdAttribute* attribute = nullptr;
-    if (type != "rel" && isKeptUsdAttribute(prim.type, name, keepsValues_)) {
+    if (type != "rel" && isKeptUsdAttribute(prim.type, name, content_)) {
       auto kept = attributeOf(prim, name);
       if (!kept) return kept.error();
       attribute = *kept;
@@ -526,7 +553,7 @@ class UsdaReader {
 
   std::string_view text_;
   const std::string& name_;
-  bool keepsValues_;
+  UsdContent content_;
   std::size_t at_ = 0, line_ = 1;
   UsdLayer layer_;
 };
@@ -535,8 +562,8 @@ class UsdaReader {
 
 bool isUsda(std::string_view text) { return text.starts_with(kCookie); }
 
-Result<UsdLayer> readUsda(std::string_view text, const std::string& name, bool keepsValues) {
-  return UsdaReader(text, name, keepsValues).read();
+Result<UsdLayer> readUsda(std::string_view text, const std::string& name, UsdContent content) {
+  return UsdaReader(text, name, content).read();
 }
 
 }  // namespace ringlet

@@ -14,8 +14,8 @@ bool isUsda(std::string_view text);
 
 /// Reads a layer; its names are views of `text`. `name` is the file's, for messages, which say line, what was
 /// found and what was expected. Of what no groom needs only the brackets are checked. Variants are read over.
-/// `keepsValues`: attributes that isUsdValue() names are kept.
 /// Throws nothing but std::bad_alloc. Cost: one pass.
-Result<UsdLayer> readUsda(std::string_view text, const std::string& name, bool keepsValues = false);
+Result<UsdLayer> readUsda(std::string_view text, const std::string& name,
+                          UsdContent content = UsdContent::strands);
 
 }  // namespace ringlet

@@ -239,7 +239,11 @@ class CrateReader {
         if (field.rep.type() != kSamplesType || !field.rep.isKnown())
           return Error{fmt::format("{}: {}: found no time samples where they are named", crate_.name(),
                                    crate_.describe(path))};
-        const Status read = values_.readSamples(field.rep, mostElements, reading_.keepsPlaces, attribute);
+        using Kept = usdc::CrateValues::Kept;
+        const Kept kept = reading_.keepsPlaces                     ? Kept::places
+                          : reading_.content == UsdContent::meshes ? Kept::all
+                                                                   : Kept::first;
+        const Status read = values_.readSamples(field.rep, mostElements, kept, attribute);
         return isUsdValue(attribute.name) ? Status{} : read;
       }
       if (meaningOf(field) == Field::standard && !attribute.time) {
@@ -271,7 +275,7 @@ class CrateReader {
   }
 
   bool isKept(const UsdPrim& prim, std::string_view name) const {
-    return isKeptUsdAttribute(prim.type, name, reading_.keepsValues) ||
+    return isKeptUsdAttribute(prim.type, name, reading_.content) ||
            (reading_.keepsPlaces && (name == "extent" || name == "velocities"));
   }
 

@@ -17,7 +17,7 @@ struct UsdcReading {
   /// Samples are not decoded: of each attribute that has some it is noted where they are (UsdAttribute), in a
   /// file that `bytes` may be the beginning of.
   bool keepsPlaces = false;
-  bool keepsValues = false;  // attributes that isUsdValue() names
+  UsdContent content = UsdContent::strands;
 };
 
 /// Reads a layer from a crate of version 0.4.0 to 0.13.0, in which all that is inside counts from its first

@@ -189,8 +189,7 @@ Result<std::uint64_t> CrateValues::placeAfter(std::uint64_t at) const {
   return at + step;
 }
 
-Status CrateValues::readSamples(Rep rep, std::uint64_t mostElements, bool keepsPlaces,
-                                UsdAttribute& attribute) {
+Status CrateValues::readSamples(Rep rep, std::uint64_t mostElements, Kept kept, UsdAttribute& attribute) {
   const auto times = placeAfter(rep.payload());
   if (!times) return times.error();
   const Rep timesRep{readU64(crate_.bytes(), *times)};
@@ -213,7 +212,18 @@ Status CrateValues::readSamples(Rep rep, std::uint64_t mostElements, bool keepsP
     return crate_.ended(*values, fmt::format("{} samples", count));
   attribute.time = timeAt(0);
   attribute.isSampled = count > 1;
-  if (keepsPlaces) {
+  if (kept == Kept::all) {
+    for (std::uint64_t i = 0; i < count; ++i) {
+      if (!std::isfinite(timeAt(i)) || (i > 0 && !(timeAt(i) > timeAt(i - 1))))
+        return crate_.wrong(timesRep.payload(), "times that do not rise", "finite ones, in order");
+      auto value = valueOf({readU64(crate_.bytes(), *values + 8 + 8 * i)}, mostElements);
+      if (!value) return value.error();
+      attribute.samples.push_back({timeAt(i), std::move(*value)});
+    }
+    attribute.value = attribute.samples.front().value;
+    return {};
+  }
+  if (kept == Kept::places) {
     for (std::uint64_t i = 0; i < count; ++i)
       attribute.places.push_back({timeAt(i), readU64(crate_.bytes(), *values + 8 + 8 * i)});
     return {};

@@ -23,8 +23,9 @@ class CrateValues {
   Result<double> numberOf(Rep rep);
   Result<std::string_view> nameOf(Rep rep);
 
-  /// The first of an attribute's samples; or, where `keepsPlaces`, where each of them is.
-  Status readSamples(Rep rep, std::uint64_t mostElements, bool keepsPlaces, UsdAttribute& attribute);
+  /// Of an attribute's samples the first, all, or where each of them is.
+  enum class Kept { first, all, places };
+  Status readSamples(Rep rep, std::uint64_t mostElements, Kept kept, UsdAttribute& attribute);
 
   /// Whether a list of changes, a dictionary or a list of names holds something. What we do not know does.
   bool isFilled(Rep rep) const;

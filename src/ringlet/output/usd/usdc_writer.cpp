@@ -16,13 +16,11 @@
 
 #include "ringlet/base/assert.h"
 #include "ringlet/base/little_endian.h"
+#include "ringlet/base/text_of.h"
 
 namespace ringlet {
 namespace {
 
-std::string_view textOf(std::span<const std::byte> bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
 std::span<const std::byte> bytesOf(std::string_view text) { return std::as_bytes(std::span(text)); }
 
 // Numbers of a file over bytes that are there.

@@ -333,14 +333,33 @@ std::span<const SceneField<SceneScalp>> scalpFields() {
   using S = SceneScalp;
   static const SceneField<S> all[] = {
       {"file", "", "required",
-       "A .gltf, .glb or .vrm file with the mesh whose nearest triangles the roots follow; the same file as "
-       "motion.file where the head follows a joint of it.",
+       "File of the mesh whose nearest triangles the roots follow: a .gltf, .glb or .vrm file, which may be "
+       "motion.file where the head follows a joint of it; a .usda, .usdc, .usd or .usdz file with samples of "
+       "points; an .obj file with a cache; or a sequence of .obj files, as body.####.obj, where each # stands "
+       "for a digit of the frame's number.",
        &S::file},
-      {"mesh", "", "the only one", "Name of the mesh, or of the node that has it.", &S::mesh},
+      {"cache", "", "none",
+       "Point cache of an .obj file, .pc2 or .mdd: its points over time, in the same order, in the world.",
+       &S::cache},
+      {"mesh", "", "the only one", "Name of the mesh: glTF's own or its node's; a USD prim's name or path.",
+       &S::mesh},
       {"animation", "", "the head's where it is the same file, else the first",
-       "Animation, by name or number from 0.", &S::animation},
-      {"unit", "m", "the head's where it is the same file, else glTF's metre", "Metres per unit of the file.",
-       &S::metresPerUnit, kUnit},
+       "glTF: animation, by name or number from 0.", &S::animation},
+      {"unit", "m", "the head's where it is the same file, else the file's; the groom's of .obj",
+       "Metres per unit of the file.", &S::metresPerUnit, kUnit},
+      {"up",
+       "",
+       "the head's where it is the same file, else the file's; the groom's of .obj",
+       "The axis of the file that points up.",
+       &S::up,
+       {},
+       kFileAxisNames},
+      {"fps",
+       "1/s",
+       "the run's",
+       "Frames per second of a .pc2 file or a sequence.",
+       &S::framesPerSecond,
+       {0.001, 1e6}},
       {"farthest",
        "m",
        "",
@@ -350,7 +369,7 @@ std::span<const SceneField<SceneScalp>> scalpFields() {
       {"start",
        "s",
        "",
-       "Time of the animation's first key. Roots are bound at that time, at the head's pose of that time; "
+       "Time of the first key, sample or file. Roots are bound at that time, at the head's pose of that time; "
        "before it they move with the head.",
        &S::start,
        {-3600, 3600}},

@@ -125,7 +125,7 @@ class SceneReader {
     if (const toml::table* table = tableOf(file, "", "scalp")) {
       readFields(*table, "scalp", scalpFields(), scene.scalp);
       if (!table->get("file"))
-        missing_.add(lineOf(*table), "found no scalp.file; expected a .gltf, .glb or .vrm file");
+        missing_.add(lineOf(*table), "found no scalp.file; expected the file of a mesh");
     }
     readSimulation(file, scene.simulation);
     if (const toml::table* table = tableOf(file, "", "contacts")) {

@@ -107,12 +107,13 @@ struct SceneMotion {
   SceneRoots roots{};
 };
 
-/// The mesh that roots follow, of a glTF file (motion/head_scalp.h); none where there is no file.
+/// The mesh that roots follow (motion/head_scalp.h); none where there is no file.
 struct SceneScalp {
-  std::filesystem::path file{};
-  std::string mesh{};       // empty: the only one
-  std::string animation{};  // empty: the head's where it is the same file, else the first
-  std::optional<double> metresPerUnit{};
+  std::filesystem::path file{}, cache{};  // as for motion/mesh_motion_file.h
+  std::string mesh{};                     // empty: the only one
+  std::string animation{};                // empty: the head's where it is the same file, else the first
+  std::optional<double> metresPerUnit{}, framesPerSecond{};
+  std::string up{};  // axis of the file, a name of motion/file_axis.h; empty: as the kind of file has it
   double farthest = 0.01;  // [m]
   double start = 0;        // when its first key is [s]
 };

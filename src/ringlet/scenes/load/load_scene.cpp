@@ -20,6 +20,7 @@
 #include "ringlet/measure/joint_check.h"
 #include "ringlet/measure/material_suggestion.h"
 #include "ringlet/measure/placement_check.h"
+#include "ringlet/motion/mesh_motion_file.h"
 #include "ringlet/motion/motion_file.h"
 #include "ringlet/motion/skinned_mesh.h"
 #include "ringlet/rest/material_parameters.h"
@@ -48,11 +49,6 @@ Result<TriangleMesh> readGltfMesh(const SceneBody& scene, bool upIsZ, std::vecto
   return mesh;
 }
 
-bool isCalledObj(const std::filesystem::path& file) {
-  const std::string ending = file.extension().string();
-  return ending == ".obj" || ending == ".OBJ";
-}
-
 // The triangles of a body of shape mesh, read or made, in its own axes [m].
 Result<TriangleMesh> meshOf(const SceneBody& scene, const SceneGroom& groom, double metresPerUnit,
                             std::vector<std::string>& warnings) {
@@ -65,7 +61,7 @@ Result<TriangleMesh> meshOf(const SceneBody& scene, const SceneGroom& groom, dou
     const bool isGltf = motionFileKind(scene.file.string()) == MotionFileKind::gltf;
     auto read = isGltf ? readGltfMesh(scene, groom.up == "Z", warnings)
                        : readObjMesh(scene.file, scene.metresPerUnit.value_or(metresPerUnit));
-    if (!read && !isGltf && !isCalledObj(scene.file)) {
+    if (!read && !isGltf && !isObjMesh(scene.file)) {
       return Error{read.error().message + "; bodies are read from .obj, .gltf, .glb and .vrm files",
                    read.error().fault};
     }
@@ -148,7 +144,7 @@ Result<Motion> loadedMotion(const SceneFile& scene, const Settings& settings,
 }
 
 // By the mesh where roots are bound to it.
-std::optional<std::string> doubtOfRootEnds(const SkinnedMesh& mesh, const Groom& groom, const Motion& motion,
+std::optional<std::string> doubtOfRootEnds(const MeshMotion& mesh, const Groom& groom, const Motion& motion,
                                            const HeadScalpChoice& binding, const std::string& name) {
   const TriangleMesh ground{mesh.pointsAt(mesh.firstSeconds()), mesh.triangles()};
   if (!checkMesh(ground) || groom.strandCount() == 0) return std::nullopt;  // the binding says what is wrong
@@ -173,19 +169,20 @@ Result<HeadScalp> loadedScalp(const SceneFile& file, LoadedScene& loaded) {
   const std::string name = scene.file.string();
   std::error_code code;  // files that are not there are no error of this
   const bool isHeads = !head.file.empty() && std::filesystem::equivalent(head.file, scene.file, code);
-  SkinnedMeshChoice choice{.node = scene.mesh, .animation = scene.animation};
+  MeshMotionChoice choice{.path = scene.file,
+                          .cache = scene.cache,
+                          .mesh = scene.mesh,
+                          .animation = scene.animation,
+                          .metresPerUnit = scene.metresPerUnit,
+                          .up = fileAxisNamed(scene.up),
+                          .framesPerSecond = scene.framesPerSecond.value_or(loaded.settings.framesPerSecond)};
   if (isHeads && choice.animation.empty()) choice.animation = head.animation;
-  choice.placement.metresPerUnit = scene.metresPerUnit.value_or(isHeads ? head.metresPerUnit.value_or(1) : 1);
-  choice.placement.upIsZ = file.groom.up == "Z";
-  if (isHeads) choice.placement.up = fileAxisNamed(head.up).value_or(FileAxis::plusY);
-  auto read = readSkinnedMesh(scene.file, choice);
-  if (!read) {
-    const bool isGltf = motionFileKind(name) == MotionFileKind::gltf;
-    return Error{fmt::format("the scalp: {}{}", read.error().message,
-                             isGltf ? "" : "; scalps are read from .gltf, .glb and .vrm files"),
-                 read.error().fault};
-  }
-  const auto mesh = std::make_shared<const SkinnedMesh>(std::move(*read));
+  if (isHeads && !choice.metresPerUnit) choice.metresPerUnit = head.metresPerUnit;
+  if (isHeads && !choice.up) choice.up = fileAxisNamed(head.up);
+  if (!choice.metresPerUnit && isObjMesh(scene.file)) choice.metresPerUnit = loaded.groom.metresPerUnit;
+  const auto read = readMeshMotion(choice, file.groom.up == "Z");
+  if (!read) return Error{fmt::format("the scalp: {}", read.error().message), read.error().fault};
+  const std::shared_ptr<const MeshMotion>& mesh = *read;
   for (const std::string& warning : mesh->warnings())
     loaded.warnings.push_back(fmt::format("{}: {}", name, warning));
 

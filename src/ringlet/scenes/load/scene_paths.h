@@ -15,7 +15,8 @@ void forEachFileOf(Scene& scene, const Visit& visit) {
     };
     (one(paths), ...);
   };
-  named(scene.groom.file, scene.groom.scalp, scene.motion.file, scene.scalp.file, scene.goalFile,
+  named(scene.groom.file, scene.groom.scalp, scene.motion.file, scene.scalp.file, scene.scalp.cache,
+        scene.goalFile,
         scene.output.hairScalpFile);
   for (auto& body : scene.bodies) {
     named(body.file);

@@ -1,0 +1,288 @@
+// Implements motion/usd_mesh.h.
+#include "ringlet/motion/usd_mesh.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <new>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "ringlet/base/file_ending.h"
+#include "ringlet/base/quoted.h"
+#include "ringlet/base/whole_file.h"
+#include "ringlet/groom/usd/usd_file.h"
+#include "ringlet/groom/usd/usd_transform.h"
+
+namespace ringlet {
+namespace {
+
+constexpr const char* kFlatten = "flatten the file first, as `usdcat --flatten` does";
+constexpr double kUsdUnit = 0.01;      // of a file that says none [m]
+constexpr double kUsdTimeCodes = 24;   // likewise, in a second
+constexpr std::size_t kMostNamed = 6;  // in a sentence
+
+const UsdAttribute* find(const UsdPrim& prim, std::string_view name) {
+  const auto found = std::ranges::find(prim.attributes, name, &UsdAttribute::name);
+  return found == prim.attributes.end() ? nullptr : &*found;
+}
+
+std::string_view tokenOf(const UsdPrim& prim, std::string_view name, std::string_view otherwise) {
+  const UsdAttribute* attribute = find(prim, name);
+  return attribute && attribute->value.texts.size() == 1 ? attribute->value.texts.front() : otherwise;
+}
+
+// What an op's samples say at a time: straight between numbers, of quaternions the shorter way.
+UsdValue valueAt(const std::vector<UsdSample>& samples, double time) {
+  const auto after = std::ranges::upper_bound(samples, time, {}, &UsdSample::time);
+  if (after == samples.begin()) return samples.front().value;
+  const UsdSample& a = *(after - 1);
+  if (after == samples.end() || a.value.numbers.size() != after->value.numbers.size()) return a.value;
+  UsdValue value = a.value;
+  const double share = (time - a.time) / (after->time - a.time);
+  double alike = 0;
+  for (std::size_t k = 0; k < value.numbers.size(); ++k) alike += value.numbers[k] * after->value.numbers[k];
+  const double sign = value.numbers.size() == 4 && alike < 0 ? -1 : 1;
+  for (std::size_t k = 0; k < value.numbers.size(); ++k)
+    value.numbers[k] += (sign * after->value.numbers[k] - value.numbers[k]) * share;
+  return value;
+}
+
+class UsdMeshMaker {
+ public:
+  UsdMeshMaker(const UsdLayer& layer, const std::string& name, const UsdMeshChoice& choice)
+      : layer_(layer), name_(name), choice_(choice) {}
+
+  Result<SampledMesh> make() {
+    if (Status found = findMesh(); !found) return found.error();
+    if (Status placed = findTransforms(); !placed) return placed.error();
+    if (Status read = readFaces(); !read) return read.error();
+    if (Status read = readPoints(); !read) return read.error();
+    auto mesh =
+        SampledMesh::of(std::move(triangles_), std::move(samples_), std::move(placed_), std::move(warnings_));
+    if (!mesh) return wrong(prim_, mesh.error().message);
+    return mesh;
+  }
+
+ private:
+  const UsdPrim& mesh() const { return layer_.prims[prim_]; }
+  Error wrong(std::uint32_t prim, const std::string& sentence) const {
+    return Error{fmt::format("{}: {}: {}", name_, usdPathOf(layer_, prim), sentence)};
+  }
+
+  bool isThere(std::uint32_t prim) const {
+    for (; prim != kNoUsdPrim; prim = layer_.prims[prim].parent)
+      if (!layer_.prims[prim].isActive || layer_.prims[prim].specifier != UsdSpecifier::def) return false;
+    return true;
+  }
+
+  Status findMesh() {
+    std::vector<std::uint32_t> meshes;
+    for (std::uint32_t p = 0; p < layer_.prims.size(); ++p)
+      if (layer_.prims[p].type == "Mesh" && isThere(p)) meshes.push_back(p);
+    std::vector<std::string> paths;
+    for (const std::uint32_t p : meshes) paths.push_back(usdPathOf(layer_, p));
+    const std::string& wanted = choice_.prim;
+    const std::string there = fmt::format(
+        "{}", fmt::join(paths.begin(),
+                        paths.begin() + std::min<std::ptrdiff_t>(kMostNamed, std::ssize(paths)), ", "));
+    const bool isComposed =
+        !layer_.composedBy.empty() ||
+        std::ranges::any_of(layer_.prims, [](const UsdPrim& prim) { return !prim.composedBy.empty(); });
+    if (meshes.empty())
+      return Error{
+          fmt::format("{}: found no Mesh prim{}", name_,
+                      isComposed ? fmt::format(" but other files that are not followed; {}", kFlatten) : "")};
+    std::erase_if(meshes, [&](std::uint32_t p) {
+      return !wanted.empty() && layer_.prims[p].name != wanted && usdPathOf(layer_, p) != wanted;
+    });
+    if (meshes.empty())
+      return Error{
+          fmt::format("{}: there is no Mesh prim {}; there are {}", name_, ringlet::quoted(wanted), there)};
+    if (meshes.size() > 1)
+      return Error{fmt::format("{}: has {} Mesh prims, so that one must be named, by its path: {}", name_,
+                               meshes.size(), there)};
+    prim_ = meshes.front();
+    return {};
+  }
+
+  // The prims whose transforms place the mesh, itself first.
+  Status findTransforms() {
+    for (std::uint32_t p = prim_; p != kNoUsdPrim; p = layer_.prims[p].parent) {
+      const UsdPrim& prim = layer_.prims[p];
+      if (!prim.composedBy.empty())
+        return wrong(p, fmt::format("has {}, which are not followed; {}", prim.composedBy, kFlatten));
+      if (!prim.deformedBy.empty())
+        return wrong(
+            p, fmt::format("{} deforms it by a skeleton or blend shapes, which are not followed; export "
+                           "its points over time (a point cache) instead",
+                           prim.deformedBy));
+      UsdPrim ops{.name = prim.name, .type = prim.type, .composedBy = {}, .attributes = {}};
+      for (const UsdAttribute& attribute : prim.attributes)
+        if (attribute.name.starts_with("xformOp")) ops.attributes.push_back(attribute);
+      const auto placement = usdPlacementOf(ops);
+      if (!placement) return wrong(p, placement.error().message);
+      transforms_.push_back(std::move(ops));
+      if (placement->isOfWorld) break;
+    }
+    return {};
+  }
+
+  Result<UsdTransform> transformAt(double time) const {
+    UsdTransform all;
+    for (UsdPrim ops : transforms_) {
+      for (UsdAttribute& op : ops.attributes)
+        if (!op.samples.empty()) op.value = valueAt(op.samples, time);
+      const auto placement = usdPlacementOf(ops);
+      if (!placement) return wrong(prim_, fmt::format("at time {}: {}", time, placement.error().message));
+      all = all.then(placement->transform);
+    }
+    return all;
+  }
+
+  Result<const UsdValue*> constantOf(std::string_view name) const {
+    const UsdAttribute* attribute = find(mesh(), name);
+    if (!attribute || attribute->value.numbers.empty()) return wrong(prim_, fmt::format("has no {}", name));
+    for (const UsdSample& sample : attribute->samples) {
+      if (sample.value.numbers != attribute->value.numbers)
+        return wrong(prim_, fmt::format("{} changes at time {}; the faces of a mesh that moves stay the same",
+                                        name, sample.time));
+    }
+    return &attribute->value;
+  }
+
+  Status readFaces() {
+    const auto counts = constantOf("faceVertexCounts");
+    if (!counts) return counts.error();
+    const auto indices = constantOf("faceVertexIndices");
+    if (!indices) return indices.error();
+    const std::vector<double>& corners = (*indices)->numbers;
+    const bool isLeft = tokenOf(mesh(), "orientation", "rightHanded") == "leftHanded";
+    std::size_t at = 0;
+    for (const double count : (*counts)->numbers) {
+      if (!(count >= 3 && count <= static_cast<double>(corners.size() - at)) || count != std::floor(count))
+        return wrong(
+            prim_, fmt::format("found a face of {} corners; expected 3 or more, and {} for all faces", count,
+                               corners.size()));
+      for (std::size_t k = 1; k + 1 < static_cast<std::size_t>(count); ++k) {
+        MeshMotion::Triangle triangle{};
+        const std::size_t three[] = {at, at + k, at + k + 1};
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+          const std::size_t which = three[corner];
+          if (!(corners[which] >= 0 && corners[which] < 4294967295.0))
+            return wrong(prim_,
+                         fmt::format("found the point {} in a face; expected 0 or more", corners[which]));
+          triangle[corner] = static_cast<std::uint32_t>(corners[which]);
+        }
+        if (isLeft) std::swap(triangle[1], triangle[2]);
+        triangles_.push_back(triangle);
+      }
+      at += static_cast<std::size_t>(count);
+    }
+    if (tokenOf(mesh(), "subdivisionScheme", "catmullClark") != "none")
+      warnings_.push_back(
+          fmt::format("{}: a subdivision surface; its cage is taken, which lies a little outside",
+                      usdPathOf(layer_, prim_)));
+    return {};
+  }
+
+  Status readPoints() {
+    const UsdAttribute* points = find(mesh(), "points");
+    if (!points) return wrong(prim_, "has no points");
+    if (!points->drivenBy.empty())
+      return wrong(prim_, fmt::format("points are given by {}, which is not followed", points->drivenBy));
+    std::vector<UsdSample> only;
+    if (points->samples.empty()) only.push_back({0, points->value});
+    const std::vector<UsdSample>& samples = only.empty() ? points->samples : only;
+    samples_.pointCount = samples.front().value.numbers.size() / 3;
+    for (const UsdSample& sample : samples) {
+      const std::vector<double>& numbers = sample.value.numbers;
+      if (sample.value.width != 3 || numbers.size() != 3 * samples_.pointCount || numbers.empty())
+        return wrong(prim_,
+                     fmt::format("found {} points at time {}; expected {}: points and faces of a mesh that "
+                                 "moves stay the same",
+                                 numbers.size() / 3, sample.time, samples_.pointCount));
+    }
+    const double rate = layer_.timeCodesPerSecond.value_or(kUsdTimeCodes);
+    if (!(rate > 0 && rate <= 1e6))
+      return Error{fmt::format("{}: found {} time codes per second; expected more than 0", name_, rate)};
+    for (const UsdSample& sample : samples) {
+      const std::vector<double>& xyz = sample.value.numbers;
+      samples_.seconds.push_back(sample.time / rate);
+      for (std::size_t at = 0; at < xyz.size(); at += 3)
+        samples_.points.push_back(static_cast<Vec3f>(Vec3d{xyz[at], xyz[at + 1], xyz[at + 2]}));
+    }
+    return readPlacements(rate);
+  }
+
+  Status readPlacements(double rate) {
+    std::set<double> times;
+    for (const UsdPrim& ops : transforms_)
+      for (const UsdAttribute& op : ops.attributes)
+        for (const UsdSample& sample : op.samples) times.insert(sample.time);
+    if (times.size() < 2 && samples_.seconds.size() < 2)
+      warnings_.push_back(fmt::format("{}: does not move", usdPathOf(layer_, prim_)));
+    if (times.empty()) times.insert(0);
+    placed_ = {{}, {}};
+    for (const double time : times) {
+      const auto transform = transformAt(time);
+      if (!transform) return transform.error();
+      placed_.seconds.push_back(time / rate);
+      const auto& [x, y, z] = transform->rows;
+      placed_.placements.push_back(world() * Affine{x, y, z, transform->move});
+      if (time == *times.begin() && transform->determinant() < 0)
+        for (MeshMotion::Triangle& triangle : triangles_) std::swap(triangle[1], triangle[2]);
+    }
+    return {};
+  }
+
+  Affine world() const {
+    Affine scaled;
+    scaled.x.x = scaled.y.y = scaled.z.z =
+        choice_.metresPerUnit.value_or(layer_.metresPerUnit.value_or(kUsdUnit));
+    const FileAxis stated = layer_.upAxis == "Z" ? FileAxis::plusZ : FileAxis::plusY;
+    return turnUp(choice_.up.value_or(stated), choice_.upIsZ) * scaled;
+  }
+
+  const UsdLayer& layer_;
+  const std::string& name_;
+  const UsdMeshChoice& choice_;
+  std::uint32_t prim_ = kNoUsdPrim;
+  std::vector<UsdPrim> transforms_;  // with nothing but their ops
+  std::vector<MeshMotion::Triangle> triangles_;
+  PointSamples samples_;
+  PlacementSamples placed_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace
+
+bool isUsdFile(const std::filesystem::path& path) {
+  const std::string ending = endingOf(path);
+  return ending == ".usda" || ending == ".usdc" || ending == ".usd" || ending == ".usdz";
+}
+
+Result<SampledMesh> readUsdMesh(std::span<const std::byte> bytes, const std::string& name,
+                                const UsdMeshChoice& choice) {
+  const auto layer = readUsdLayer(bytes, name, UsdContent::meshes);
+  if (!layer) return layer.error();
+  return UsdMeshMaker(*layer, name, choice).make();
+}
+
+Result<SampledMesh> readUsdMesh(const std::filesystem::path& path, const UsdMeshChoice& choice) {
+  try {
+    const auto bytes = readWholeFile(path);
+    if (!bytes) return bytes.error();
+    return readUsdMesh(*bytes, path.string(), choice);
+  } catch (const std::bad_alloc&) {
+    return Error{fmt::format("{}: reading it needs more memory than there is", path.string()),
+                 Fault::hostMemory};
+  }
+}
+
+}  // namespace ringlet
