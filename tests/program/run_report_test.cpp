@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
-#include <vector>
 
 #include "program/measure/measure_report.h"
 #include "tests/measure/strand_samples.h"
@@ -303,24 +302,6 @@ TEST(MeasureReport, EveryNumberIsInItsUnit) {
     expected["per_strand"].push_back(entry);
   }
   EXPECT_EQ(printed(measuredJson(measured, true)), expected);
-}
-
-// In the order of the object.
-TEST(RunReport, HelpSaysWhatEachKeyMeans) {
-  const std::string help = runKeysHelp();
-  std::vector<std::string> described, written;
-  std::size_t at = 0;
-  for (const ReportKey& key : runReportKeys()) {
-    described.emplace_back(key.key);
-    EXPECT_TRUE(std::string(key.effect).ends_with('.')) << key.key;
-    const std::size_t line = help.find(std::string("\n  ") + key.key + " ", at);
-    ASSERT_NE(line, std::string::npos) << key.key;
-    EXPECT_EQ(help.find(key.effect, line), line + 29) << key.key;
-    at = line;
-  }
-  const nlohmann::ordered_json report = runJson({}, {}, outcome());
-  for (const auto& [key, value] : report.items()) written.push_back(key);
-  EXPECT_EQ(described, written);
 }
 
 }  // namespace

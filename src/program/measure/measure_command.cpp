@@ -10,6 +10,7 @@
 
 #include "program/cli/command_line.h"
 #include "program/cli/exit_codes.h"
+#include "program/cli/keys_help.h"
 #include "program/cli/standard_error.h"
 #include "program/cli/standard_output.h"
 #include "program/measure/measure_plot.h"
@@ -40,34 +41,14 @@ constexpr const char* kMeasureExample =
     "Everything is seen from the head: each strand from its root, turned as the roots together turn (one\n"
     "root, or roots on a line, cannot show every turn; the head then turns as little as they allow).\n"
     "Bounce (of the core's length), sway and settling are those after the head last drove the hair.\n"
-    "--against compares that pose, or the last frame, with one more, in REST's unit. With their roots\n"
-    "put together it says how far particles and cores (root mean square) and tips are apart, the angle\n"
-    "between the cores' chords, and by how much turns and mean radius are more. Of two animations it also\n"
-    "compares all frames that both have. Way: how far tips are from where they are at rest, seen from\n"
-    "the head, and which share that is of the way there; tips: how far they are apart, as a share of the\n"
-    "way there. --without is the same motion without contacts. Kept: of the overlap beyond rest that\n"
-    "--against prevents in the worst frame of that, the share that OTHER prevents; hairs are as thick as\n"
-    "contacts have them unasked. A stiff volume keeps all and moves little, so look at all three.\n"
-    "--plot draws over time, of OTHER and of each --over: mean droop, core elongation and turns, kinetic\n"
-    "energy of hair of 10 mg/m, and how far hairs are in each other beyond rest, the deepest and the mean,\n"
-    "as shares of their reach (1: two centres in one place); hairs are as thick as contacts have them\n"
-    "unasked. What is zero all the while is left out. It needs gnuplot.\n"
-    "\n"
-    "--json keys: strands particles frames; over strands of the last frame, means: droop_mm\n"
-    "core_elongation, and of the curled: turns mean_radius_mm; handedness_kept: by all;\n"
-    "tip_rotation_deg: the largest; over all frames, the largest: arc_drift max_edge_stretch worst\n"
-    "{droop_mm core_elongation tip_rotation_deg}; of the motion: bounce_hz sway_hz (means) settle_s (the\n"
-    "last to settle) energy_ratio (last second over peak); spread {KEY: [mean, min, max]} of the last\n"
-    "frame; against {KEY: [mean, min, max]} with --against: particles tip core (shares of the arc length)\n"
-    "direction_deg turns radius (shares of those at rest); against_motion, of two animations: frames way_mm\n"
-    "against_way_mm way tips kept, and each {way_mm against_way_mm tips} a frame; per_strand with "
-    "--strands;\n"
-    "series with --plot:\n"
-    "seconds droop_mm core_elongation turns energy_uj deepest_contact mean_contact, a number a frame. null: "
-    "nothing to\n"
-    "measure; so are limited_share and velocity_residual, which only a run knows (`ringlet simulate "
-    "--json`,\n"
-    "`ringlet scene --json`).\n"
+    "--against compares that pose, or the last frame, with one more, in REST's unit, their roots put together. Of\n"
+    "two animations it also compares all frames that both have, and --without is the same motion without\n"
+    "contacts; hairs are as thick as contacts have them unasked. A stiff volume keeps all and moves little, so\n"
+    "look at way, tips and kept.\n"
+    "--plot draws the series of OTHER and of each --over over time. What is zero all the while is left out. It\n"
+    "needs gnuplot.\n"
+    "\n";
+constexpr const char* kMeasureExitHelp =
     "\n"
     "Exit status: 0 done, 1 something failed, 2 wrong usage.";
 
@@ -93,7 +74,7 @@ int run(const TypedMeasure& typed) {
 void addMeasureCommand(CLI::App& app, int& exitCode) {
   auto typed = std::make_shared<TypedMeasure>();
   CLI::App* command = app.add_subcommand("measure", "Measures the curl of a groom, and what became of it");
-  command->footer(kMeasureExample);
+  command->footer(kMeasureExample + keysHelp(measureKeys()) + kMeasureExitHelp);
   command
       ->add_option("REST", typed->plan.rest,
                    "The groom at rest: a .hair, .obj, .usd, .tfx, .ply, .data or .bin file")

@@ -5,66 +5,182 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <iterator>
+
+#include "ringlet/run/report_rows.h"
 
 namespace ringlet::program {
 namespace {
 
-nlohmann::json orNull(std::optional<double> value) {
-  return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
-}
+using Json = ReportJson;
+
+constexpr ReportRow<CurlNumbers> kCountRows[] = {
+    {{"strands", "", "Strands."}, [](const CurlNumbers& f) -> Json { return f.strandCount; }},
+    {{"particles", "", "Particles."}, [](const CurlNumbers& f) -> Json { return f.particleCount; }},
+    {{"frames", "", "Frames of the animation; 0 of a groom."},
+     [](const CurlNumbers& f) -> Json { return f.frameCount; }},
+};
+
+constexpr ReportRow<CurlNumbers> kWorstRows[] = {
+    {{"droop_mm", "mm", "The droop of most magnitude, below 0 where the tip rose."},
+     [](const CurlNumbers& f) -> Json { return 1000 * f.worstDroop; }},
+    {{"core_elongation", "1", "The largest core elongation."},
+     [](const CurlNumbers& f) -> Json { return f.worstCoreElongation; }},
+    {{"tip_rotation_deg", "deg", "The tip rotation of most magnitude."},
+     [](const CurlNumbers& f) -> Json { return f.worstTipRotation; }},
+};
+
+constexpr ReportRow<CurlNumbers> kCurlRows[] = {
+    {{"droop_mm", "mm",
+      "How far the tip is below its place at rest, below 0 where it rose; mean over strands, last frame."},
+     [](const CurlNumbers& f) -> Json { return 1000 * f.droop; }},
+    {{"core_elongation", "1", "Length of the curl's core over that at rest; mean over strands, last frame."},
+     [](const CurlNumbers& f) -> Json { return f.coreElongation; }},
+    {{"turns", "", "Turns; mean over strands that are curled at rest, last frame."},
+     [](const CurlNumbers& f) -> Json { return f.turns; }},
+    {{"mean_radius_mm", "mm", "Radius of the curl; mean over the same."},
+     [](const CurlNumbers& f) -> Json { return 1000 * f.meanRadius; }},
+    {{"handedness_kept", "", "Whether every curl keeps its hand, last frame."},
+     [](const CurlNumbers& f) -> Json { return f.handednessKept; }},
+    {{"arc_drift", "1",
+      "Relative change of a strand's length, with its sign; of most magnitude over strands and frames."},
+     [](const CurlNumbers& f) -> Json { return f.arcDrift; }},
+    {{"max_edge_stretch", "1",
+      "Longest edge over its length in the groom, over strands and frames (`ringlet scene`: over all steps)."},
+     [](const CurlNumbers& f) -> Json { return f.maxEdgeStretch; }},
+    {{"tip_rotation_deg", "deg",
+      "Rotation of a tip about its core, full turns included; of the strand that turned most, last frame."},
+     [](const CurlNumbers& f) -> Json { return f.tipRotation; }},
+    {{"bounce_hz", "Hz",
+      "Frequency of the core's length after the head last drove the hair; mean over strands that bounce, null "
+      "where none does."},
+     [](const CurlNumbers& f) -> Json { return orNull(f.bounceHz); }},
+    {{"sway_hz", "Hz", "The same of the tip's sideways motion."},
+     [](const CurlNumbers& f) -> Json { return orNull(f.swayHz); }},
+    {{"settle_s", "s", "Time from then until the last strand rests; null where one does not."},
+     [](const CurlNumbers& f) -> Json { return orNull(f.settleSeconds); }},
+    {{"energy_ratio", "1",
+      "Kinetic energy of the last second over its peak; 0 where nothing moved, null without motion."},
+     [](const CurlNumbers& f) -> Json { return orNull(f.energyRatio); }},
+    {{"worst", "", "Over strands and frames.", keysOf<kWorstRows>}, objectOf<kWorstRows>},
+};
+
+// How tables show it.
+struct TableColumn {
+  const char* label;
+  const char* heading;  // over a line a strand
+  double scale;
+  int digits;
+  bool onlyInPoses = false;  // says nothing about a groom alone
+};
 
 // A line of the table and of the JSON's spread: one value of every strand, in the unit shown.
-struct ReportRow {
-  const char* label;
-  const char* key;
-  double StrandMeasure::*member;
-  double scale;
-  int digits;
-  bool onlyInPoses;  // says nothing about a groom alone
+template <class Strand>
+struct StrandRow {
+  ReportKey key;
+  TableColumn column;
+  double Strand::*member;
 };
-constexpr ReportRow kRows[] = {
-    {"droop [mm]", "droop_mm", &StrandMeasure::droop, 1000, 3, true},
-    {"  of length [%]", "relative_droop", &StrandMeasure::relativeDroop, 100, 3, true},
-    {"core elongation", "core_elongation", &StrandMeasure::coreElongation, 1, 4, true},
-    {"chord elongation", "chord_elongation", &StrandMeasure::chordElongation, 1, 4, true},
-    {"core [mm]", "core_length_mm", &StrandMeasure::coreLength, 1000, 2, false},
-    {"chord [mm]", "chord_mm", &StrandMeasure::chord, 1000, 2, false},
-    {"turns", "turns", &StrandMeasure::turns, 1, 3, false},
-    {"winding [turns]", "winding", &StrandMeasure::winding, 1, 3, false},
-    {"radius [mm]", "mean_radius_mm", &StrandMeasure::meanRadius, 1000, 3, false},
-    {"hand kept [%]", "handedness_share", &StrandMeasure::handednessKept, 100, 1, true},
-    {"arc drift [%]", "arc_drift", &StrandMeasure::arcDrift, 100, 4, true},
-    {"longest edge [x]", "max_edge_stretch", &StrandMeasure::maxEdgeStretch, 1, 4, true},
-    {"tip rotation [deg]", "tip_rotation_deg", &StrandMeasure::tipRotation, 1, 2, true},
+constexpr StrandRow<StrandMeasure> kRows[] = {
+    {{"droop_mm", "mm", "How far the tip is below its place at rest."},
+     {"droop [mm]", "droop mm", 1000, 3, true},
+     &StrandMeasure::droop},
+    {{"relative_droop", "1", "That as a share of the strand's length."},
+     {"  of length [%]", "%", 100, 3, true},
+     &StrandMeasure::relativeDroop},
+    {{"core_elongation", "1", "Length of the core over that at rest."},
+     {"core elongation", "core x", 1, 4, true},
+     &StrandMeasure::coreElongation},
+    {{"chord_elongation", "1", "The same of the chord, from root to tip."},
+     {"chord elongation", "chord x", 1, 4, true},
+     &StrandMeasure::chordElongation},
+    {{"core_length_mm", "mm", "Length of the core."},
+     {"core [mm]", "core mm", 1000, 2},
+     &StrandMeasure::coreLength},
+    {{"chord_mm", "mm", "Length of the chord."}, {"chord [mm]", "chord mm", 1000, 2}, &StrandMeasure::chord},
+    {{"turns", "", "Turns about the core, counted as they wind at rest."},
+     {"turns", "turns", 1, 3},
+     &StrandMeasure::turns},
+    {{"winding", "", "Turns, right-handed ones less left-handed ones."},
+     {"winding [turns]", "winding", 1, 3},
+     &StrandMeasure::winding},
+    {{"mean_radius_mm", "mm", "Mean distance from the core."},
+     {"radius [mm]", "radius mm", 1000, 3},
+     &StrandMeasure::meanRadius},
+    {{"handedness_share", "1", "Share of the curled length whose hand is that at rest."},
+     {"hand kept [%]", "hand %", 100, 1, true},
+     &StrandMeasure::handednessKept},
+    {{"arc_drift", "1", "Relative change of the strand's length."},
+     {"arc drift [%]", "drift %", 100, 4, true},
+     &StrandMeasure::arcDrift},
+    {{"max_edge_stretch", "1", "Longest edge over its length in the groom."},
+     {"longest edge [x]", "edge x", 1, 4, true},
+     &StrandMeasure::maxEdgeStretch},
+    {{"tip_rotation_deg", "deg", "Rotation of the tip about the core, full turns included."},
+     {"tip rotation [deg]", "tip deg", 1, 2, true},
+     &StrandMeasure::tipRotation},
 };
 
-// The same of the distances from --against.
-struct DistanceRow {
-  const char* label;
-  const char* heading;  // of a column
-  const char* key;
-  double ShapeDistance::*member;
-  double scale;
-  int digits;
+// Of the distances from --against.
+constexpr StrandRow<ShapeDistance> kDistanceRows[] = {
+    {{"particles", "1", "Between particles, root mean square, as a share of the strand's length."},
+     {"particles [% length]", "apart %", 100, 4},
+     &ShapeDistance::particles},
+    {{"tip", "1", "Between the tips, likewise a share."},
+     {"tip [% length]", "tip %", 100, 4},
+     &ShapeDistance::tip},
+    {{"core", "1", "Between the cores, as of particles."},
+     {"core [% length]", "core %", 100, 4},
+     &ShapeDistance::core},
+    {{"direction_deg", "deg", "Angle between the cores' chords."},
+     {"direction [deg]", "dir deg", 1, 2},
+     &ShapeDistance::direction},
+    {{"turns", "1", "By how much turns are more, as a share of those at rest."},
+     {"turns [%]", "turns %", 100, 3},
+     &ShapeDistance::turns},
+    {{"radius", "1", "The same of the mean radius."},
+     {"radius [%]", "radius %", 100, 3},
+     &ShapeDistance::radius},
 };
-constexpr DistanceRow kDistanceRows[] = {
-    {"particles [% length]", "apart %", "particles", &ShapeDistance::particles, 100, 4},
-    {"tip [% length]", "tip %", "tip", &ShapeDistance::tip, 100, 4},
-    {"core [% length]", "core %", "core", &ShapeDistance::core, 100, 4},
-    {"direction [deg]", "dir deg", "direction_deg", &ShapeDistance::direction, 1, 2},
-    {"turns [%]", "turns %", "turns", &ShapeDistance::turns, 100, 3},
-    {"radius [%]", "radius %", "radius", &ShapeDistance::radius, 100, 3},
+
+constexpr ReportRow<TipWays> kWayRows[] = {
+    {{"way_mm", "mm", "How far tips are from where they are at rest, seen from the head."},
+     [](const TipWays& f) -> Json { return 1000 * f.way; }},
+    {{"against_way_mm", "mm", "The same in the other run."},
+     [](const TipWays& f) -> Json { return 1000 * f.other; }},
+    {{"tips", "1", "How far tips are from those of the other run, as a share of their way there."},
+     [](const TipWays& f) -> Json { return orNull(f.apartShare()); }},
+};
+
+// A number a frame of each.
+Json eachWay(const MotionBeside& beside) {
+  Json json;
+  for (const auto& row : kWayRows)
+    for (const TipWays& frame : beside.frames) json[row.key.key].push_back(row.value(frame));
+  return json;
+}
+
+constexpr ReportRow<MotionBeside> kBesideRows[] = {
+    {{"frames", "", "Frames that both runs have; the numbers are means over these."},
+     [](const MotionBeside& f) -> Json { return f.frames.size(); }},
+    {kWayRows[0].key, [](const MotionBeside& f) { return kWayRows[0].value(f.mean); }},
+    {kWayRows[1].key, [](const MotionBeside& f) { return kWayRows[1].value(f.mean); }},
+    {{"way", "1", "The first as a share of the second."},
+     [](const MotionBeside& f) -> Json { return orNull(f.mean.wayShare()); }},
+    {kWayRows[2].key, [](const MotionBeside& f) { return kWayRows[2].value(f.mean); }},
+    {{"kept", "1",
+      "Of the overlap beyond rest that --against prevents in the worst frame of --without, the share that "
+      "OTHER prevents; null without that."},
+     [](const MotionBeside& f) -> Json { return orNull(f.kept); }},
+    {{"each", "", "A number a frame.", keysOf<kWayRows>},
+     eachWay,
+     [](const MotionBeside& f) { return !f.frames.empty(); }},
 };
 
 // JSON has shares where the table has per cent.
-template <class AnyRow>
-double jsonScale(const AnyRow& row) {
-  return row.scale == 100 ? 1 : row.scale;
-}
+double jsonScale(const TableColumn& column) { return column.scale == 100 ? 1 : column.scale; }
 
-template <class Strand, class AnyRow>
-std::vector<double> valuesOf(const std::vector<Strand>& strands, const AnyRow& row, double scale) {
+template <class Strand>
+std::vector<double> valuesOf(const std::vector<Strand>& strands, const StrandRow<Strand>& row, double scale) {
   std::vector<double> values;
   for (const Strand& strand : strands) values.push_back(strand.*row.member * scale);
   return values;
@@ -72,22 +188,6 @@ std::vector<double> valuesOf(const std::vector<Strand>& strands, const AnyRow& r
 
 std::string count(std::size_t number, const char* noun) {
   return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
-}
-
-nlohmann::ordered_json besideJson(const MotionBeside& beside) {
-  nlohmann::ordered_json json;
-  json["frames"] = beside.frames.size();
-  json["way_mm"] = 1000 * beside.mean.way;
-  json["against_way_mm"] = 1000 * beside.mean.other;
-  json["way"] = orNull(beside.mean.wayShare());
-  json["tips"] = orNull(beside.mean.apartShare());
-  json["kept"] = orNull(beside.kept);
-  for (const TipWays& frame : beside.frames) {
-    json["each"]["way_mm"].push_back(1000 * frame.way);
-    json["each"]["against_way_mm"].push_back(1000 * frame.other);
-    json["each"]["tips"].emplace_back(orNull(frame.apartShare()));
-  }
-  return json;
 }
 
 std::string besideText(const MotionBeside& beside) {
@@ -101,6 +201,110 @@ std::string besideText(const MotionBeside& beside) {
   return text;
 }
 
+// [mean, least, largest] of each row.
+template <const auto& rows, class Strand>
+Json spreadJson(const std::vector<Strand>& strands) {
+  Json json;
+  for (const auto& row : rows) {
+    const Spread spread = spreadOf(valuesOf(strands, row, jsonScale(row.column)));
+    json[row.key.key] = {spread.mean, spread.min, spread.max};
+  }
+  return json;
+}
+
+// A strand of those measured.
+struct StrandSource {
+  const Measured& measured;
+  std::size_t strand;
+
+  const StrandMotion& motion() const { return measured.motions[strand]; }
+};
+bool hasMotion(const StrandSource& from) { return !from.measured.motions.empty(); }
+
+Json distanceJson(const StrandSource& from) {
+  Json json;
+  for (const auto& row : kDistanceRows)
+    json[row.key.key] = from.measured.distances[from.strand].*row.member * jsonScale(row.column);
+  return json;
+}
+
+constexpr ReportRow<StrandSource> kStrandCountRows[] = {
+    {{"particles", "", "Its particles."},
+     [](const StrandSource& f) -> Json { return f.measured.ruler.strand(f.strand).particleCount(); }},
+};
+constexpr ReportRow<StrandSource> kStrandRows[] = {
+    {{"turns_at_rest", "", "Turns at rest."},
+     [](const StrandSource& f) -> Json { return f.measured.ruler.strand(f.strand).rest().turns; }},
+    {{"handedness", "", "Of the winding: 1 right, -1 left, 0 straight or as much one as the other."},
+     [](const StrandSource& f) -> Json { return f.measured.strands[f.strand].handedness; }},
+    {{"handedness_kept", "", "Whether it keeps its hand."},
+     [](const StrandSource& f) -> Json {
+       return f.measured.strands[f.strand].handednessKept >= kHandKeptShare;
+     }},
+    {{"bounce_hz", "Hz", "Frequency of the core's length, of a motion, as those that follow."},
+     [](const StrandSource& f) -> Json { return orNull(f.motion().bounceHz); },
+     hasMotion},
+    {{"sway_hz", "Hz", "The same of the tip's sideways motion."},
+     [](const StrandSource& f) -> Json { return orNull(f.motion().swayHz); },
+     hasMotion},
+    {{"settle_s", "s", "Time until it rests; null where it does not."},
+     [](const StrandSource& f) -> Json { return orNull(f.motion().settleSeconds); },
+     hasMotion},
+    {{"energy_ratio", "1", "Kinetic energy of the last second over its peak."},
+     [](const StrandSource& f) -> Json { return f.motion().energyRatio; },
+     hasMotion},
+    {{"against", "", "With --against, how far it is apart.", keysOf<kDistanceRows>},
+     distanceJson,
+     [](const StrandSource& f) { return !f.measured.distances.empty(); }},
+};
+
+Json strandJson(const StrandSource& from) {
+  Json json = objectOf<kStrandCountRows>(from);
+  for (const auto& row : kRows)
+    json[row.key.key] = from.measured.strands[from.strand].*row.member * jsonScale(row.column);
+  addRows<kStrandRows>(json, from);
+  return json;
+}
+
+std::vector<ReportKey> strandKeys() {
+  std::vector<ReportKey> keys = keysOf<kStrandRows>();
+  keys.insert(keys.begin(), kStrandCountRows[0].key);
+  return keys;
+}
+
+// What is told beside the numbers of the whole groom.
+struct MeasuredSource {
+  const Measured& measured;
+  bool withStrands;
+};
+
+constexpr ReportRow<MeasuredSource> kMeasuredRows[] = {
+    {{"limited_share", "", "Null: only a run knows it (`ringlet simulate --json`, `ringlet scene --json`)."},
+     [](const MeasuredSource&) { return Json(); }},
+    {{"velocity_residual", "", "Null likewise."}, [](const MeasuredSource&) { return Json(); }},
+    {{"spread", "", "Of the last frame, over strands: [mean, least, largest].", keysOf<kRows>},
+     [](const MeasuredSource& f) { return spreadJson<kRows>(f.measured.strands); }},
+    {{"against", "", "With --against, how far the poses are apart: [mean, least, largest] over strands.",
+      keysOf<kDistanceRows>},
+     [](const MeasuredSource& f) { return spreadJson<kDistanceRows>(f.measured.distances); },
+     [](const MeasuredSource& f) { return !f.measured.distances.empty(); }},
+    {{"against_motion", "", "With --against, of two animations.", keysOf<kBesideRows>},
+     [](const MeasuredSource& f) { return objectOf<kBesideRows>(*f.measured.beside); },
+     [](const MeasuredSource& f) { return f.measured.beside.has_value(); }},
+    {{"series", "", "With --plot: a number a frame.", seriesKeys},
+     [](const MeasuredSource& f) { return seriesJson(*f.measured.series); },
+     [](const MeasuredSource& f) { return f.measured.series.has_value(); }},
+    {{"per_strand", "",
+      "With --strands, every strand: numbers by the keys of spread, and beside them:", strandKeys},
+     [](const MeasuredSource& f) {
+       Json strands = Json::array();
+       for (std::size_t s = 0; s < f.measured.strands.size(); ++s)
+         strands.push_back(strandJson({f.measured, s}));
+       return strands;
+     },
+     [](const MeasuredSource& f) { return f.withStrands; }},
+};
+
 }  // namespace
 
 std::string shown(std::optional<double> value, int digits) {
@@ -110,67 +314,21 @@ std::string shown(std::optional<double> value, int digits) {
 }
 
 void addCurlKeys(nlohmann::ordered_json& json, const CurlNumbers& numbers) {
-  json["droop_mm"] = 1000 * numbers.droop;
-  json["core_elongation"] = numbers.coreElongation;
-  json["turns"] = numbers.turns;
-  json["mean_radius_mm"] = 1000 * numbers.meanRadius;
-  json["handedness_kept"] = numbers.handednessKept;
-  json["arc_drift"] = numbers.arcDrift;
-  json["max_edge_stretch"] = numbers.maxEdgeStretch;
-  json["tip_rotation_deg"] = numbers.tipRotation;
-  json["bounce_hz"] = orNull(numbers.bounceHz);
-  json["sway_hz"] = orNull(numbers.swayHz);
-  json["settle_s"] = orNull(numbers.settleSeconds);
-  json["energy_ratio"] = orNull(numbers.energyRatio);
-  json["worst"] = {{"droop_mm", 1000 * numbers.worstDroop},
-                   {"core_elongation", numbers.worstCoreElongation},
-                   {"tip_rotation_deg", numbers.worstTipRotation}};
+  addRows<kCurlRows>(json, numbers);
 }
 
 nlohmann::ordered_json measuredJson(const Measured& measured, bool withStrands) {
-  nlohmann::ordered_json json;
-  json["strands"] = measured.numbers.strandCount;
-  json["particles"] = measured.numbers.particleCount;
-  json["frames"] = measured.numbers.frameCount;
+  nlohmann::ordered_json json = objectOf<kCountRows>(measured.numbers);
   addCurlKeys(json, measured.numbers);
-  for (const char* key : {"limited_share", "velocity_residual"}) json[key] = nullptr;  // of a run's steps
-  for (const ReportRow& row : kRows) {
-    const Spread spread = spreadOf(valuesOf(measured.strands, row, jsonScale(row)));
-    json["spread"][row.key] = {spread.mean, spread.min, spread.max};
-  }
-  if (!measured.distances.empty()) {
-    for (const DistanceRow& row : kDistanceRows) {
-      const Spread spread = spreadOf(valuesOf(measured.distances, row, jsonScale(row)));
-      json["against"][row.key] = {spread.mean, spread.min, spread.max};
-    }
-  }
-  if (measured.beside) json["against_motion"] = besideJson(*measured.beside);
-  if (measured.series) json["series"] = seriesJson(*measured.series);
-  if (!withStrands) return json;
-
-  json["per_strand"] = nlohmann::json::array();
-  for (std::size_t s = 0; s < measured.strands.size(); ++s) {
-    const StrandMeasure& strand = measured.strands[s];
-    nlohmann::ordered_json entry;
-    entry["particles"] = measured.ruler.strand(s).particleCount();
-    for (const ReportRow& row : kRows) entry[row.key] = strand.*row.member * jsonScale(row);
-    entry["turns_at_rest"] = measured.ruler.strand(s).rest().turns;
-    entry["handedness"] = strand.handedness;
-    entry["handedness_kept"] = strand.handednessKept >= kHandKeptShare;
-    if (!measured.motions.empty()) {
-      const StrandMotion& motion = measured.motions[s];
-      entry["bounce_hz"] = orNull(motion.bounceHz);
-      entry["sway_hz"] = orNull(motion.swayHz);
-      entry["settle_s"] = orNull(motion.settleSeconds);
-      entry["energy_ratio"] = motion.energyRatio;
-    }
-    if (!measured.distances.empty()) {
-      for (const DistanceRow& row : kDistanceRows)
-        entry["against"][row.key] = measured.distances[s].*row.member * jsonScale(row);
-    }
-    json["per_strand"].push_back(std::move(entry));
-  }
+  addRows<kMeasuredRows>(json, MeasuredSource{measured, withStrands});
   return json;
+}
+
+std::vector<ReportKey> measureKeys() {
+  std::vector<ReportKey> keys = keysOf<kCountRows>();
+  for (const auto& more : {keysOf<kCurlRows>(), keysOf<kMeasuredRows>()})
+    keys.insert(keys.end(), more.begin(), more.end());
+  return keys;
 }
 
 std::string riseNote(double droop) { return droop < 0 ? " (below 0: the tip rose)" : ""; }
@@ -193,21 +351,23 @@ std::string measuredText(const Measured& measured) {
     text += fmt::format("  {:<20}{:>12}{:>12}{:>12}{}\n", label, shown(spread.mean, digits),
                         shown(spread.min, digits), shown(spread.max, digits), note);
   };
-  for (const ReportRow& row : kRows) {
-    if (row.onlyInPoses && !measured.isPose) continue;
-    const Spread spread = spreadOf(valuesOf(measured.strands, row, row.scale));
-    line(row.label, spread, row.digits, row.member == &StrandMeasure::droop ? riseNote(spread.min) : "");
+  for (const auto& row : kRows) {
+    if (row.column.onlyInPoses && !measured.isPose) continue;
+    const Spread spread = spreadOf(valuesOf(measured.strands, row, row.column.scale));
+    line(row.column.label, spread, row.column.digits,
+         row.member == &StrandMeasure::droop ? riseNote(spread.min) : "");
     if (!measured.isPose) continue;
-    if (row.member == &StrandMeasure::turns) line("  at rest", groom.turnsAtRest, row.digits);
+    if (row.member == &StrandMeasure::turns) line("  at rest", groom.turnsAtRest, row.column.digits);
     if (row.member == &StrandMeasure::meanRadius) {
       const Spread& rest = groom.meanRadiusAtRest;
-      line("  at rest [mm]", {1000 * rest.mean, 1000 * rest.min, 1000 * rest.max}, row.digits);
+      line("  at rest [mm]", {1000 * rest.mean, 1000 * rest.min, 1000 * rest.max}, row.column.digits);
     }
   }
   if (!measured.distances.empty()) {
     text += fmt::format("\n  against {}\n", measured.against);
-    for (const DistanceRow& row : kDistanceRows)
-      line(row.label, spreadOf(valuesOf(measured.distances, row, row.scale)), row.digits);
+    for (const auto& row : kDistanceRows)
+      line(row.column.label, spreadOf(valuesOf(measured.distances, row, row.column.scale)),
+           row.column.digits);
     if (measured.beside) text += besideText(*measured.beside);
   }
   if (measured.isPose)
@@ -239,23 +399,20 @@ std::string measuredText(const Measured& measured) {
 
 std::string strandsText(const Measured& measured) {
   std::string text = fmt::format("\n{:>7}{:>10}", "strand", "particles");
-  const char* headings[] = {"droop mm", "%",         "core x", "chord x", "core mm", "chord mm", "turns",
-                            "winding",  "radius mm", "hand %", "drift %", "edge x",  "tip deg"};
-  static_assert(std::size(headings) == std::size(kRows));
-  for (std::size_t k = 0; k < std::size(kRows); ++k) {
-    if (!kRows[k].onlyInPoses || measured.isPose) text += fmt::format("{:>10}", headings[k]);
-  }
+  for (const auto& row : kRows)
+    if (!row.column.onlyInPoses || measured.isPose) text += fmt::format("{:>10}", row.column.heading);
   if (!measured.motions.empty())
     text += fmt::format("{:>10}{:>10}{:>10}{:>10}", "bounce Hz", "sway Hz", "settle s", "energy");
   if (!measured.distances.empty()) {
-    for (const DistanceRow& row : kDistanceRows) text += fmt::format("{:>10}", row.heading);
+    for (const auto& row : kDistanceRows) text += fmt::format("{:>10}", row.column.heading);
   }
   text += "\n";
   for (std::size_t s = 0; s < measured.strands.size(); ++s) {
     text += fmt::format("{:>7}{:>10}", s, measured.ruler.strand(s).particleCount());
-    for (const ReportRow& row : kRows) {
-      if (!row.onlyInPoses || measured.isPose)
-        text += fmt::format("{:>10}", shown(measured.strands[s].*row.member * row.scale, row.digits));
+    for (const auto& row : kRows) {
+      if (!row.column.onlyInPoses || measured.isPose)
+        text += fmt::format("{:>10}",
+                            shown(measured.strands[s].*row.member * row.column.scale, row.column.digits));
     }
     if (!measured.motions.empty()) {
       const StrandMotion& motion = measured.motions[s];
@@ -263,8 +420,9 @@ std::string strandsText(const Measured& measured) {
                           shown(motion.settleSeconds, 2), motion.energyRatio);
     }
     if (!measured.distances.empty()) {
-      for (const DistanceRow& row : kDistanceRows)
-        text += fmt::format("{:>10}", shown(measured.distances[s].*row.member * row.scale, row.digits));
+      for (const auto& row : kDistanceRows)
+        text += fmt::format("{:>10}",
+                            shown(measured.distances[s].*row.member * row.column.scale, row.column.digits));
     }
     text += "\n";
   }

@@ -37,10 +37,7 @@ struct Measured {
   bool isUnfinished = false;  // an animation that was not finished
 };
 
-/// Adds the keys that stand for a whole groom: droop_mm core_elongation turns mean_radius_mm handedness_kept
-/// arc_drift max_edge_stretch tip_rotation_deg bounce_hz sway_hz settle_s energy_ratio, null where there is
-/// nothing to measure, and worst {droop_mm core_elongation tip_rotation_deg}. What each stands for:
-/// CurlNumbers.
+/// Adds the keys that stand for a whole groom, from droop_mm to worst. What each stands for: CurlNumbers.
 void addCurlKeys(nlohmann::ordered_json& json, const CurlNumbers& numbers);
 
 /// A number as tables show it, with so many digits and never "-0.00"; "-" for none.
@@ -48,8 +45,10 @@ std::string shown(std::optional<double> value, int digits);
 /// " (below 0: the tip rose)" behind such a droop; nothing behind others.
 std::string riseNote(double droop);
 
-/// The keys of `ringlet measure --json`.
+/// The object of `ringlet measure --json`.
 nlohmann::ordered_json measuredJson(const Measured& measured, bool withStrands);
+/// Its keys, in its order.
+std::vector<ReportKey> measureKeys();
 
 /// The summary, and a line a strand below it.
 std::string measuredText(const Measured& measured);

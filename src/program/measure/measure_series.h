@@ -8,6 +8,7 @@
 
 #include "ringlet/measure/contact_quality.h"
 #include "ringlet/measure/motion_measure.h"
+#include "ringlet/run/run_report.h"
 
 namespace ringlet::program {
 
@@ -21,13 +22,14 @@ struct MotionSeries {
 
 /// One of its curves.
 struct SeriesKind {
-  const char* key;    // of the JSON
+  ReportKey key;
   const char* label;  // of the axis
   double (*value)(const MotionSeries& series, std::size_t frame);
 };
 std::span<const SeriesKind> seriesKinds();
 
-/// {seconds: [...], KEY: [...]}: a number a frame.
+/// The keys of that JSON: the seconds, and those of the kinds. Each has a number a frame.
+std::vector<ReportKey> seriesKeys();
 nlohmann::ordered_json seriesJson(const MotionSeries& series);
 
 }  // namespace ringlet::program

@@ -45,14 +45,6 @@ std::string contactText(const RunOutcome& outcome, const ContactSettings& settin
 
 }  // namespace
 
-std::string runKeysHelp() {
-  std::string text = "--json keys:\n";
-  for (const ReportKey& key : runReportKeys())
-    text += fmt::format("  {:<26}{}{}\n", key.key, key.effect,
-                        *key.unit && key.unit != std::string("1") ? fmt::format(" [{}]", key.unit) : "");
-  return text;
-}
-
 nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings, const RunOutcome& outcome) {
   return nlohmann::ordered_json::parse(runReport(names, settings, outcome));
 }

@@ -11,10 +11,7 @@
 
 namespace ringlet::program {
 
-/// Help text: the meaning of the keys of --json.
-std::string runKeysHelp();
-
-/// runReport as an object, to which keys may be added.
+/// runReport, to be added to.
 nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings, const RunOutcome& outcome);
 std::string runText(const RunNames& names, const Settings& settings, const RunOutcome& outcome);
 

@@ -22,6 +22,7 @@
 #include "program/cli/contact_options.h"
 #include "program/cli/exit_codes.h"
 #include "program/cli/key_options.h"
+#include "program/cli/keys_help.h"
 #include "program/cli/standard_output.h"
 #include "program/convert/material_command.h"
 #include "program/simulate/dump_run.h"
@@ -333,7 +334,7 @@ void addDebugOptions(CLI::App& command, TypedSimulate& typed) {
 void addSimulateCommand(CLI::App& app, int& exitCode) {
   auto typed = std::make_shared<TypedSimulate>();
   CLI::App* command = app.add_subcommand("simulate", "Moves the hair of a groom and writes the animation");
-  command->footer(kSimulateExample + runKeysHelp() + kSimulateExitHelp);
+  command->footer(kSimulateExample + keysHelp(runReportKeys()) + kSimulateExitHelp);
 
   command
       ->add_option(

@@ -1,15 +1,12 @@
 // Implements run_report.h.
 #include "ringlet/run/run_report.h"
 
-#include <nlohmann/json.hpp>
-
-#include <iterator>
-#include <vector>
+#include "ringlet/run/report_rows.h"
 
 namespace ringlet {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = ReportJson;
 
 // The inputs of a report.
 struct Source {
@@ -17,39 +14,42 @@ struct Source {
   const Settings& settings;
   const RunOutcome& outcome;
 };
+using Row = ReportRow<Source>;
 
-struct Row {
-  ReportKey key;
-  Json (*value)(const Source& from);
+constexpr ReportRow<FrameMilliseconds> kFrameTimes[] = {
+    {{"first", "ms", "Of the first frame, in which drivers compile."},
+     [](const FrameMilliseconds& f) -> Json { return f.first; }},
+    {{"median", "ms", "Of all frames, the median."},
+     [](const FrameMilliseconds& f) -> Json { return f.median; }},
+    {{"least", "ms", "Of all frames, the least."},
+     [](const FrameMilliseconds& f) -> Json { return f.least; }},
 };
 
-template <class T>
-Json orNull(const std::optional<T>& value) {
-  return value ? Json(*value) : Json();
+constexpr Row kWallTimes[] = {
+    {{"start", "s", "Device, kernels, pre-roll."},
+     [](const Source& f) -> Json { return f.outcome.wall.start; }},
+    {{"frames", "s", "Until the last frame is written."},
+     [](const Source& f) -> Json { return f.outcome.wall.frames; }},
+    {{"finish", "s", "last.obj and sheet.png."},
+     [](const Source& f) -> Json { return f.outcome.wall.finish; }},
+};
+
+template <auto member>
+Json ofHost(const Source& from) {
+  return from.outcome.host ? Json((*from.outcome.host).*member) : Json();
 }
 
-Json frameTimes(const Source& from) {
-  const auto& times = from.outcome.frameTimes;
-  if (!times) return nullptr;
-  return {{"first", times->first}, {"median", times->median}, {"least", times->least}};
-}
-
-Json wallTimes(const Source& from) {
-  const auto& wall = from.outcome.wall;
-  return {{"start", wall.start}, {"frames", wall.frames}, {"finish", wall.finish}};
-}
-
-Json waits(const Source& from) {
-  const RunOutcome& outcome = from.outcome;
-  const auto ofHost = [&](double HostMilliseconds::*part) {
-    return outcome.host ? Json((*outcome.host).*part) : Json();
-  };
-  return {{"device", outcome.waitedForDevice},
-          {"writer", outcome.waitedForWriter},
-          {"submit", ofHost(&HostMilliseconds::submit)},
-          {"fence", ofHost(&HostMilliseconds::fence)},
-          {"copy", outcome.copied}};
-}
+constexpr Row kWaits[] = {
+    {{"device", "ms", "The loop waited for the device."},
+     [](const Source& f) -> Json { return f.outcome.waitedForDevice; }},
+    {{"writer", "ms", "The loop waited for the writer."},
+     [](const Source& f) -> Json { return f.outcome.waitedForWriter; }},
+    {{"submit", "ms", "The host submitted; null without a device or with several."},
+     ofHost<&HostMilliseconds::submit>},
+    {{"fence", "ms", "The host was at the device's fence; null likewise."}, ofHost<&HostMilliseconds::fence>},
+    {{"copy", "ms", "Positions were copied out of the frame."},
+     [](const Source& f) -> Json { return f.outcome.copied; }},
+};
 
 // Null where there are no contacts, or they were not measured.
 template <auto member>
@@ -59,12 +59,6 @@ Json ofContacts(const Source& from) {
 template <auto member>
 Json ofOverlaps(const Source& from) {
   return from.outcome.contactNumbers ? Json((*from.outcome.contactNumbers).*member) : Json();
-}
-
-Json outputs(const Source& from) {
-  Json paths = Json::array();
-  for (const auto& path : from.outcome.outputs) paths.push_back(path.string());
-  return paths;
 }
 
 constexpr Row kRows[] = {
@@ -77,23 +71,18 @@ constexpr Row kRows[] = {
      [](const Source& f) -> Json { return f.outcome.hair.rigidStrandCount; }},
     {{"ms_per_frame", "ms", "Time of stepping alone, by the device's clock where it has one."},
      [](const Source& f) -> Json { return f.outcome.millisecondsPerFrame; }},
-    {{"frame_ms", "ms",
-      "The same of the first frame, in which drivers compile, of the median and of the least; null where ranks "
-      "step the hair."},
-     frameTimes},
+    {{"frame_ms", "ms", "The same of single frames; null where ranks step the hair.", keysOf<kFrameTimes>},
+     [](const Source& f) -> Json {
+       return f.outcome.frameTimes ? objectOf<kFrameTimes>(*f.outcome.frameTimes) : Json();
+     }},
     {{"stages_ms", "ms",
       "The same a frame, by stage; beside it copy_out, the copy of positions to the host, which is not in "
       "ms_per_frame, and readback, write and scalp, which go on while the next frame is stepped."},
      [](const Source& f) -> Json { return f.outcome.stages; }},
-    {{"wall_s", "s",
-      "start: device, kernels, pre-roll; frames: until the last is written; finish: last.obj and sheet.png."},
-     wallTimes},
+    {{"wall_s", "s", "Time of the run.", keysOf<kWallTimes>}, objectOf<kWallTimes>},
     {{"compute_share", "1", "Share of stepping in wall_s.frames."},
      [](const Source& f) -> Json { return f.outcome.computeShare; }},
-    {{"waits_ms", "ms",
-      "A frame: time that the loop waited for the device and for the writer; time of the host to submit and at "
-      "the device's fence (null without a device or with several), and to copy positions out of the frame."},
-     waits},
+    {{"waits_ms", "ms", "Time of the host, a frame.", keysOf<kWaits>}, objectOf<kWaits>},
     {{"max_edge_stretch", "1",
       "Longest edge over its length in the groom, over all outer steps; null where it is not finite."},
      [](const Source& f) -> Json { return f.outcome.report.maxEdgeStretch; }},
@@ -185,25 +174,18 @@ constexpr Row kRows[] = {
     {{"warnings", "", "Sentences for a person."}, [](const Source& f) -> Json { return f.outcome.warnings; }},
     {{"notes", "", "Sentences on what may be better, as a preset that fits."},
      [](const Source& f) -> Json { return f.outcome.notes; }},
-    {{"outputs", "", "The files written."}, outputs},
+    {{"outputs", "", "The files written."},
+     [](const Source& f) -> Json { return pathsOf(f.outcome.outputs); }},
 };
 
 }  // namespace
 
 std::string runReport(const RunNames& names, const Settings& settings, const RunOutcome& outcome) {
-  Json json;
-  for (const Row& row : kRows) json[row.key.key] = row.value({names, settings, outcome});
-  // Paths may contain bytes that are not valid text.
+  const Json json = objectOf<kRows>(Source{names, settings, outcome});
+  // Paths may have bytes that are no text.
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::span<const ReportKey> runReportKeys() {
-  static const std::vector<ReportKey> keys = [] {
-    std::vector<ReportKey> all;
-    for (const Row& row : kRows) all.push_back(row.key);
-    return all;
-  }();
-  return keys;
-}
+std::vector<ReportKey> runReportKeys() { return keysOf<kRows>(); }
 
 }  // namespace ringlet

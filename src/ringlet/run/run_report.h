@@ -1,8 +1,8 @@
 // The outcome of a run as one JSON object, as `ringlet simulate --json` prints it.
 #pragma once
 
-#include <span>
 #include <string>
+#include <vector>
 
 #include "ringlet/run/run_outcome.h"
 #include "ringlet/scene/settings.h"
@@ -19,11 +19,13 @@ std::string runReport(const RunNames& names, const Settings& settings, const Run
 
 struct ReportKey {
   const char* key;
-  const char* unit;    // "" for none
-  const char* effect;  // its meaning, a sentence
+  const char* unit;                             // "" for none
+  const char* effect;                           // what it says, a sentence
+  std::vector<ReportKey> (*parts)() = nullptr;  // the keys of an object that it holds; none: it holds none,
+                                                // or any names
 };
 
 /// Every key of the object, in its order.
-std::span<const ReportKey> runReportKeys();
+std::vector<ReportKey> runReportKeys();
 
 }  // namespace ringlet
