@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -14,12 +13,13 @@
 #include "program/cli/command_line.h"
 #include "program/cli/exit_codes.h"
 #include "program/cli/interruption.h"
+#include "program/cli/keys_help.h"
 #include "program/cli/standard_error.h"
 #include "program/cli/standard_output.h"
 #include "program/device/open_device.h"
 #include "program/render/picture_run.h"
 #include "program/render/render_options.h"
-#include "program/simulate/run_report.h"
+#include "program/render/render_report.h"
 #include "program/simulate/simulate_run.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/measure/groom_doubts.h"
@@ -56,14 +56,8 @@ constexpr const char* kRenderExample =
     "  contacts   how deep it is in others beyond rest, over the sum of the radii: 0 to 100 %\n"
     "  error      how far its farthest particle is from where it is in the run --against: 0 to 10 mm\n"
     "--most says another end. With strand each strand has a colour of its own.\n"
-    "\n"
-    "--json keys: frames strands hairs points width_m size samples seconds_per_frame cpu_seconds_per_frame "
-    "(of\n"
-    "drawing, without files; but for the first frame, which compiles kernels) start_seconds stages_ms "
-    "device\n"
-    "driver device_bytes head (one is shown that is no body of a scene) interrupted warnings outputs (the "
-    "first\n"
-    "and the last); colours (of, from, to, unit: what blue and red stand for), ground_m (its height).\n"
+    "\n";
+constexpr const char* kRenderExitHelp =
     "\n"
     "Exit status: 0 done, 1 something failed, 2 wrong usage, 130 interrupted; pictures that are finished "
     "stay.";
@@ -174,39 +168,10 @@ Result<RenderOutcome> runAnimation(const RenderOptions& typed, const ComputeDevi
   return drawAnimation(*animation, device, std::move(plan), !typed.quiet && !typed.json);
 }
 
-// What the ends of the colours stand for.
-nlohmann::ordered_json jsonOf(const StrandColourChoice& colours) {
-  nlohmann::ordered_json json{{"of", colours.scale->name}};
-  if (colours.scale->most > 0)
-    json.update({{"from", 0}, {"to", colours.most}, {"unit", colours.scale->unit}});
-  return json;
-}
-
 void printOutcome(const RenderOptions& typed, const RenderPlan& plan, const RenderOutcome& outcome,
                   const ComputeDevice& device) {
   if (typed.json) {
-    nlohmann::ordered_json json{{"frames", outcome.frameCount},
-                                {"strands", outcome.strandCount},
-                                {"hairs", outcome.hairCount},
-                                {"points", outcome.pointCount},
-                                {"width_m", outcome.width},
-                                {"size", typed.size},
-                                {"samples", typed.samples},
-                                {"seconds_per_frame", outcome.secondsPerFrame},
-                                {"cpu_seconds_per_frame", outcome.cpuSecondsPerFrame},
-                                {"start_seconds", outcome.startSeconds},
-                                {"stages_ms", outcome.stages},
-                                {"device", device.name()},
-                                {"driver", device.driver()},
-                                {"device_bytes", outcome.deviceBytes},
-                                {"head", outcome.showsHead},
-                                {"interrupted", outcome.interrupted},
-                                {"warnings", outcome.warnings},
-                                {"outputs", nlohmann::json::array()}};
-    if (plan.colours) json["colours"] = jsonOf(*plan.colours);
-    if (outcome.groundHeight) json["ground_m"] = *outcome.groundHeight;
-    for (const auto& path : outcome.outputs) json["outputs"].push_back(path.string());
-    printJson(json);
+    printJson(renderJson({typed, plan, outcome, device.name(), device.driver()}));
     return;
   }
   if (typed.quiet || outcome.outputs.empty()) return;
@@ -247,7 +212,7 @@ void addRenderCommand(CLI::App& app, int& exitCode) {
   auto options = std::make_shared<RenderOptions>();
   CLI::App* command =
       app.add_subcommand("render", "Draws pictures of a run, an animation, a scene or a groom");
-  command->footer(kRenderExample);
+  command->footer(kRenderExample + keysHelp(renderKeys()) + kRenderExitHelp);
   addRenderOptions(*command, *options);
   command->callback([options, &exitCode] { exitCode = run(*options); });
 }
