@@ -10,7 +10,6 @@
 #include <charconv>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -19,11 +18,12 @@
 #include "program/cli/exit_codes.h"
 #include "program/cli/frame_range.h"
 #include "program/cli/key_options.h"
+#include "program/cli/keys_help.h"
 #include "program/cli/standard_output.h"
 #include "program/cli/written_groom.h"
+#include "program/convert/convert_report.h"
 #include "program/convert/convert_run.h"
 #include "program/simulate/reference_mover.h"
-#include "program/simulate/run_report.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/output/animation_writer.h"
@@ -56,11 +56,8 @@ constexpr const char* kConvertExample =
     "of .obj\n"
     "files keep the animation's numbers. Damaged frames are refused, whole ones beside them can be had with\n"
     "--frames. A file that was not finished is read as far as it goes, and a warning says so.\n"
-    "\n"
-    "--json keys: frames strands particles bytes error_bound_m (how far any point may be from what was\n"
-    "simulated) warnings outputs (of a sequence the first and the last). With --info: format precision\n"
-    "finished frames strands particles fps metres_per_unit up width_m bytes bytes_per_point error_bound_m\n"
-    "warnings.\n"
+    "\n";
+constexpr const char* kConvertExitHelp =
     "\n"
     "Exit status: 0 done, 1 something failed, 2 wrong usage.";
 
@@ -219,73 +216,11 @@ Status checkOutput(const TypedConvert& typed) {
   return {};
 }
 
-std::string sizeText(std::uint64_t bytes) {
-  return bytes < 1'000'000 ? fmt::format("{} bytes", bytes)
-                           : fmt::format("{:.1f} MB", 1e-6 * static_cast<double>(bytes));
-}
-
-std::string boundText(double bound) {
-  return bound == 0 ? "exact" : fmt::format("off by at most {:.3g} mm", 1000 * bound);
-}
-
-// Of all points of all frames.
-double bytesPerPoint(const AnimationReader& source) {
-  const double points = static_cast<double>(source.groom().firstPoint.back()) * source.frameCount();
-  return points > 0 ? static_cast<double>(source.byteCount()) / points : 0;
-}
-
-void printInfo(const TypedConvert& typed, const AnimationReader& source) {
-  const CacheHeader& header = source.header();
-  const std::size_t strands = source.groom().strandCount(), particles = source.groom().firstPoint.back();
-  const char* up = header.up == UpAxis::z ? "Z" : "Y";
-  const double width = header.diameter * header.metresPerUnit;
-  if (typed.json) {
-    printJson({{"format", source.formatKey()},
-               {"precision", nameOf(header.precision)},
-               {"finished", source.isFinished()},
-               {"frames", source.frameCount()},
-               {"strands", strands},
-               {"particles", particles},
-               {"fps", header.framesPerSecond},
-               {"metres_per_unit", header.metresPerUnit},
-               {"up", up},
-               {"width_m", width},
-               {"bytes", source.byteCount()},
-               {"bytes_per_point", bytesPerPoint(source)},
-               {"error_bound_m", source.errorBound()},
-               {"warnings", source.warnings()}});
-    return;
-  }
-  print("{}: {}, {}\n", typed.input.string(),
-        source.isCache() ? "cache, " + nameOf(header.precision) : source.formatName(),
-        source.isFinished() ? "finished" : "not finished");
-  print("  frames        {} at {} a second, {:.3g} s\n", source.frameCount(), header.framesPerSecond,
-        source.frameCount() / header.framesPerSecond);
-  print("  strands       {}, {} particles, {:.3g} mm wide\n", strands, particles, 1000 * width);
-  print("  unit          {} m, {} up\n", header.metresPerUnit, up);
-  print("  size          {}, {:.2f} bytes a point\n", sizeText(source.byteCount()), bytesPerPoint(source));
-  print("  points        {}\n", boundText(source.errorBound()));
-}
-
-void printOutcome(const TypedConvert& typed, const Groom& groom, const std::vector<std::string>& warnings,
-                  const ConvertOutcome& outcome, int frameCount) {
-  const std::size_t strands = groom.strandCount(), particles = groom.firstPoint.back();
-  if (typed.json) {
-    nlohmann::ordered_json json{{"frames", frameCount},
-                                {"strands", strands},
-                                {"particles", particles},
-                                {"bytes", outcome.byteCount},
-                                {"error_bound_m", outcome.errorBound},
-                                {"warnings", warnings},
-                                {"outputs", nlohmann::json::array()}};
-    for (const auto& path : outcome.outputs) json["outputs"].push_back(path.string());
-    printJson(json);
-  } else if (!typed.quiet) {
-    print("{} frame{} of {} strand{}, {} particles: {}{}, {}, {}\n", frameCount, frameCount == 1 ? "" : "s",
-          strands, strands == 1 ? "" : "s", particles, outcome.outputs.front().string(),
-          outcome.outputs.size() > 1 ? " to " + outcome.outputs.back().filename().string() : "",
-          sizeText(outcome.byteCount), boundText(outcome.errorBound));
-  }
+void printReport(const TypedConvert& typed, const ConvertReport& report) {
+  if (typed.json)
+    printJson(convertJson(report));
+  else if (!typed.quiet)
+    print("{}", convertText(report));
 }
 
 // A groom is one pose: another program's, made into what Ringlet writes.
@@ -305,20 +240,10 @@ Status runGroomConvert(const TypedConvert& typed) {
     loaded->warnings.push_back(std::move(lost));
   }
   std::error_code code;
-  const std::uint64_t bytes = std::filesystem::file_size(typed.output, code);
-  if (typed.json) {
-    printJson({{"frames", 1},
-               {"strands", groom.strandCount()},
-               {"particles", groom.points.size()},
-               {"bytes", bytes},
-               {"error_bound_m", 0},
-               {"warnings", loaded->warnings},
-               {"outputs", {typed.output.string()}}});
-  } else if (!typed.quiet) {
-    print("a groom of {} strand{}, {} particles, in units of {} m: {}, {}\n", groom.strandCount(),
-          groom.strandCount() == 1 ? "" : "s", groom.points.size(), groom.metresPerUnit,
-          typed.output.string(), sizeText(bytes));
-  }
+  printReport(typed, {.groom = groom,
+                      .outputs = {typed.output},
+                      .byteCount = std::filesystem::file_size(typed.output, code),
+                      .warnings = std::move(loaded->warnings)});
   return {};
 }
 
@@ -334,7 +259,7 @@ Status runConvert(const TypedConvert& typed) {
   if (!source) return source.error();
   for (const std::string& warning : source->warnings()) say("ringlet convert: warning: {}\n", warning);
   if (typed.info) {
-    printInfo(typed, *source);
+    typed.json ? printJson(animationJson(*source)) : print("{}", animationText(typed.input, *source));
     return {};
   }
   if (!source->isFinished())
@@ -368,7 +293,12 @@ Status runConvert(const TypedConvert& typed) {
     say("ringlet convert: warning: {}\n", lost);
     warnings.push_back(std::move(lost));
   }
-  printOutcome(typed, written, warnings, *outcome, range->last - range->first + 1);
+  printReport(typed, {.groom = written,
+                      .outputs = outcome->outputs,
+                      .byteCount = outcome->byteCount,
+                      .warnings = std::move(warnings),
+                      .frameCount = range->last - range->first + 1,
+                      .errorBound = outcome->errorBound});
   return {};
 }
 
@@ -399,7 +329,8 @@ void addConvertCommand(CLI::App& app, int& exitCode) {
   auto typed = std::make_shared<TypedConvert>();
   CLI::App* command =
       app.add_subcommand("convert", "Makes another file of an animation, or says what is in it");
-  command->footer(kConvertExample);
+  command->footer(kConvertExample + keysHelp(convertKeys()) +
+                  keysHelp(animationKeys(), "--json keys with --info:") + kConvertExitHelp);
   command
       ->add_option("IN", typed->input,
                    "An animation: hair.usda, hair.usdc or hair.rgc, or their .partial; or a groom")
