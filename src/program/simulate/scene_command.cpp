@@ -20,9 +20,9 @@
 #include "program/cli/exit_codes.h"
 #include "program/cli/standard_output.h"
 #include "program/convert/material_command.h"
-#include "program/measure/measure_report.h"
 #include "program/simulate/hair_maker.h"
 #include "program/simulate/run_report.h"
+#include "program/simulate/scene_report.h"
 #include "program/simulate/simulate_run.h"
 #include "ringlet/base/whole_file.h"
 #include "ringlet/groom/obj_file.h"
@@ -57,13 +57,8 @@ constexpr const char* kSceneExample =
     "turning\n"
     "of a head with one strand (walk_cycle).\n"
     "\n"
-    "--json prints the keys of `simulate` and of `measure` together; max_edge_stretch is that of every step. "
-    "Beside\n"
-    "them: scene seconds preload core frames_on frame_turn_deg (twist_jump: the largest turn of a strand "
-    "frame in one\n"
-    "step, for which the scene runs twice; null elsewhere). With --list: scenes, of each name summary "
-    "seconds preload.\nWith --keys: keys, of each table key type unit range default only_with effect. With "
-    "--write: scene outputs.\n";
+    "--json prints the keys of `simulate` and of `measure` together; max_edge_stretch is that of every step.\n"
+    "\n";
 constexpr const char* kSceneExitHelp =
     "\n"
     "Scenes of hair that meets hair (two_curls, curtain, pile, fall, flip, head, walk_head) measure contacts "
@@ -88,72 +83,20 @@ struct TypedScene {
   bool list = false, keys = false, untuned = false, json = false, quiet = false, overwrite = false;
 };
 
-// Measures of a scene in addition to those of a run.
-struct SceneNumbers {
-  CurlNumbers curl;
-  std::optional<double> residual;   // of the velocity solve
-  std::optional<double> frameTurn;  // the largest in one step [degrees]
-};
-
-void printList(bool asJson) {
-  nlohmann::ordered_json scenes = nlohmann::json::array();
+void printList() {
   for (const std::string& name : sceneNames()) {
     const BuiltinScene scene = *makeScene(name);
-    const double preload = scene.settings.gravityPreload;
-    if (!asJson) print("{:<14}{} ({} s, preload {})\n", name, scene.summary, scene.seconds, preload);
-    scenes.push_back(
-        {{"name", name}, {"summary", scene.summary}, {"seconds", scene.seconds}, {"preload", preload}});
+    print("{:<14}{} ({} s, preload {})\n", name, scene.summary, scene.seconds, scene.settings.gravityPreload);
   }
-  if (asJson) printJson({{"scenes", scenes}});
 }
 
-// The measures as text, a line for each subject, printed after the lines of the run.
-std::string measureText(const SceneNumbers& numbers, const Settings& settings) {
-  const CurlNumbers& curl = numbers.curl;
-  std::string text = fmt::format("  droop         {} mm at the end, {} mm at the worst frame{}\n",
-                                 shown(1000 * curl.droop, 4), shown(1000 * curl.worstDroop, 4),
-                                 riseNote(std::min(curl.droop, curl.worstDroop)));
-  text += fmt::format("  core          {} x its length at rest, {} x at the worst frame\n",
-                      shown(curl.coreElongation, 4), shown(curl.worstCoreElongation, 4));
-  text += curl.meanRadius == 0
-              ? fmt::format("  curl          none at rest, arc drift {:.2e}\n", curl.arcDrift)
-              : fmt::format("  curl          {} turns of radius {} mm, hand {}, arc drift {:.2e}\n",
-                            shown(curl.turns, 3), shown(1000 * curl.meanRadius, 3),
-                            curl.handednessKept ? "kept" : "not kept", curl.arcDrift);
-  text += fmt::format("  tip           turned by {} degrees, {} at the worst frame\n",
-                      shown(curl.tipRotation, 2), shown(curl.worstTipRotation, 2));
-  text += fmt::format(
-      "  bounce        {}, {}, energy left of its peak {:.3g}\n",
-      curl.bounceHz ? fmt::format("{} Hz", shown(curl.bounceHz, 2)) : "none measured",
-      curl.settleSeconds ? fmt::format("settled after {} s", shown(curl.settleSeconds, 2)) : "not settled",
-      curl.energyRatio.value_or(0));
-  if (numbers.residual)
-    text += fmt::format("  residual      {:.2e} of the velocity solve\n", *numbers.residual);
-  if (numbers.frameTurn) {
-    text += fmt::format("  frames        turned by at most {} degrees in a step of 1/{:.6g} s\n",
-                        shown(numbers.frameTurn, 2), 1 / settings.stepSeconds());
-  }
-  return text;
-}
-
-// Prints every key of a scene file, table by table.
-void printKeys(bool asJson) {
-  nlohmann::ordered_json keys = nlohmann::json::array();
+// Every key of a scene file, table by table.
+void printKeys() {
+  print(
+      "A scene file is TOML; [[...]] may stand several times. Paths are relative to the file. Beside what\n"
+      "stands here [material] takes all keys of a material file: `ringlet material --list`.\n");
   std::string table;
-  if (!asJson)
-    print(
-        "A scene file is TOML; [[...]] may stand several times. Paths are relative to the file. Beside what\n"
-        "stands here [material] takes all keys of a material file: `ringlet material --list`.\n");
   for (const SceneKey& key : sceneKeys()) {
-    keys.push_back({{"table", key.table},
-                    {"key", key.key},
-                    {"type", key.type},
-                    {"unit", key.unit},
-                    {"range", key.range},
-                    {"default", key.standard},
-                    {"only_with", key.onlyWith},
-                    {"effect", key.effect}});
-    if (asJson) continue;
     if (key.table != table) {
       const bool isList = key.table == "body" || key.table == "camera" || key.table == "map" ||
                           key.table == "key" || key.table == "motion.key";
@@ -167,7 +110,6 @@ void printKeys(bool asJson) {
           key.range.empty() ? "" : " " + key.range, key.standard,
           key.onlyWith.empty() ? "" : " Only with " + key.onlyWith + ".");
   }
-  if (asJson) printJson({{"keys", keys}});
 }
 
 Error inScene(const TypedScene& typed, const Error& cause) {
@@ -205,25 +147,7 @@ Result<std::optional<double>> measureFrameTurn(const BuiltinScene& scene, Simula
   return outcome->interrupted ? std::nullopt : std::optional(turn.largest());
 }
 
-nlohmann::ordered_json asJson(const TypedScene& typed, const BuiltinScene& scene, const RunOutcome& outcome,
-                              const SceneNumbers& numbers) {
-  nlohmann::ordered_json json{{"scene", scene.name},
-                              {"seconds", outcome.frameCount / scene.settings.framesPerSecond},
-                              {"preload", scene.settings.gravityPreload},
-                              {"core", typed.scene.core},
-                              {"frames_on", typed.framesOn}};
-  json.update(runJson(typed.names, scene.settings, outcome));
-  // If both have a number, the run's is kept, since it covers every step.
-  nlohmann::ordered_json curl;
-  addCurlKeys(curl, numbers.curl);
-  curl.erase("max_edge_stretch");
-  json.update(curl);
-  json["frame_turn_deg"] =
-      numbers.frameTurn ? nlohmann::ordered_json(*numbers.frameTurn) : nlohmann::ordered_json();
-  return json;
-}
-
-// The scene as a file, with keys as typed.
+// The scene as a file, keys as typed in place of its own.
 Result<SceneFile> fileOf(const BuiltinScene& scene, const std::filesystem::path& groom,
                          const TypedKeys& keys) {
   SceneFile file = sceneFileOf(scene, groom);
@@ -247,7 +171,7 @@ Result<int> writeScene(const TypedScene& typed, const BuiltinScene& scene) {
     return written.error();
   for (const std::string& warning : scene.warnings) say("ringlet scene: warning: {}\n", warning);
   if (typed.json) {
-    printJson({{"scene", scene.name}, {"outputs", {typed.file.string(), groom.string()}}});
+    printJson(writtenJson({scene.name, {typed.file, groom}}));
   } else if (!typed.quiet) {
     print("{}: {} and {}\n", scene.name, typed.file.string(), groom.string());
   }
@@ -317,17 +241,20 @@ Result<int> runScene(TypedScene& typed) {
   }
   const int exitCode = tellTroubles("scene", *outcome, scene->frameCount);
   if (typed.json) {
-    printJson(asJson(typed, *scene, *outcome, numbers));
+    printJson(sceneJson({typed.names, typed.scene.core, typed.framesOn, *scene, *outcome, numbers}));
   } else if (!typed.quiet) {
     print("{}: {}\n{}{}", scene->name, scene->summary, runText(typed.names, settings, *outcome),
-          measureText(numbers, settings));
+          sceneMeasureText(numbers, settings));
   }
   return exitCode;
 }
 
 int run(TypedScene& typed) {
   if (typed.list || typed.keys) {
-    typed.list ? printList(typed.json) : printKeys(typed.json);
+    if (typed.json)
+      printJson(typed.list ? sceneListJson() : sceneKeysJson());
+    else
+      typed.list ? printList() : printKeys();
     return kExitFine;
   }
   auto exitCode = runScene(typed);
@@ -468,7 +395,7 @@ void addSceneCommand(CLI::App& app, int& exitCode) {
   auto typed = std::make_shared<TypedScene>();
   CLI::App* command =
       app.add_subcommand("scene", "Runs a built-in scene and measures what becomes of its hair");
-  command->footer(std::string(kSceneExample) + kSceneExitHelp);
+  command->footer(kSceneExample + sceneReportsHelp() + kSceneExitHelp);
   command->add_option("NAME", typed->name, "The scene; see --list")
       ->check(oneOf(sceneNames()))
       ->type_name("NAME");
