@@ -28,6 +28,25 @@ constexpr std::pair<const char*, const char*> kSpellings[] = {
     {"--points-per-strand", "groom.points_per_strand"},
     {"--bind", "groom.bind"},
     {"--bind-frame", "groom.bind_frame"},
+    {"--style", "groom.style"},
+    {"--strands", "groom.strands"},
+    {"--locks", "groom.locks"},
+    {"--particles", "groom.particles"},
+    {"--columns", "groom.columns"},
+    {"--rows", "groom.rows"},
+    {"--spacing", "groom.spacing"},
+    {"--scalp-radius", "groom.scalp_radius"},
+    {"--scalp", "groom.scalp"},
+    {"--radius", "groom.radius"},
+    {"--turns", "groom.turns"},
+    {"--length", "groom.length"},
+    {"--phase", "groom.phase"},
+    {"--hand", "groom.hand"},
+    {"--vary-radius", "groom.vary_radius"},
+    {"--vary-length", "groom.vary_length"},
+    {"--vary-phase", "groom.vary_phase"},
+    {"--other-hand", "groom.other_hand"},
+    {"--seed", "groom.seed"},
     {"--hairline", "groom.cut.hairline"},
     {"--parting", "groom.cut.parting"},
     {"--fringe", "groom.cut.fringe"},
@@ -103,7 +122,9 @@ Parsed parse(std::string_view table, std::vector<std::string> words) {
 std::string sceneFor(const SceneKey& key) {
   const auto has = [&](const char* kind) { return key.onlyWith.find(kind) != std::string::npos; };
   std::string text = "[groom]\n";
-  text += key.table == "groom.cut" || has("head") ? "generate = \"head\"\n" : "file = \"a.obj\"\n";
+  text += key.table == "groom.cut" || has("head") ? "generate = \"head\"\n"
+          : has("swatch")                         ? "generate = \"swatch\"\n"
+                                                  : "file = \"a.obj\"\n";
   text += "[motion]\n";
   const bool isOfFile = key.table == "motion" && key.onlyWith == "file";
   text += isOfFile ? fmt::format("file = \"a.{}\"\n", key.key == "animation" ? "glb" : "bvh")

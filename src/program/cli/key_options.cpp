@@ -38,6 +38,25 @@ constexpr KeyOption kKeyOptions[] = {
     {"--points-per-strand", "groom", "points_per_strand"},
     {"--bind", "groom", "bind"},
     {"--bind-frame", "groom", "bind_frame"},
+    {"--style", "groom", "style"},
+    {"--strands", "groom", "strands"},
+    {"--locks", "groom", "locks"},
+    {"--particles", "groom", "particles"},
+    {"--columns", "groom", "columns"},
+    {"--rows", "groom", "rows"},
+    {"--spacing", "groom", "spacing"},
+    {"--scalp-radius", "groom", "scalp_radius"},
+    {"--scalp", "groom", "scalp"},
+    {"--radius", "groom", "radius"},
+    {"--turns", "groom", "turns", "N"},
+    {"--length", "groom", "length"},
+    {"--phase", "groom", "phase", "RADIANS"},
+    {"--hand", "groom", "hand", "HAND"},
+    {"--vary-radius", "groom", "vary_radius", "SHARE"},
+    {"--vary-length", "groom", "vary_length", "SHARE"},
+    {"--vary-phase", "groom", "vary_phase", "SHARE"},
+    {"--other-hand", "groom", "other_hand", "SHARE"},
+    {"--seed", "groom", "seed"},
     {"--hairline", "groom.cut", "hairline"},
     {"--parting", "groom.cut", "parting"},
     {"--fringe", "groom.cut", "fringe"},
@@ -143,7 +162,9 @@ std::string helpOf(const SceneKey& key) {
   const std::string standard = key.standard == "true" ? "on" : key.standard == "false" ? "off" : key.standard;
   std::string_view effect = key.effect;
   effect.remove_suffix(effect.ends_with('.') ? 1 : 0);
-  const std::string with = key.onlyWith.empty() ? "" : fmt::format("; only with {}", key.onlyWith);
+  // Which generator has a key its command says.
+  const bool saysWith = !key.onlyWith.empty() && (key.table != "groom" || key.onlyWith == "file");
+  const std::string with = saysWith ? fmt::format("; only with {}", key.onlyWith) : "";
   return fmt::format("{} ({}; default {}{})", effect, range, standard, with);
 }
 

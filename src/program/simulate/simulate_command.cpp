@@ -351,7 +351,10 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
   addConfinedOption(*command, typed->reach);
 
   addSetOption(*command, typed->keys);
-  addKeyOptions(*command, typed->keys, "groom", "Groom");
+  addOptionsOfKeys(*command, typed->keys,
+                   {"groom.unit", "groom.up", "groom.root_end", "groom.points_per_strand", "groom.bind",
+                    "groom.bind_frame"},
+                   "Groom");
   addMotionOptions(*command, typed->keys);
   addSimulationOptions(*command, typed->keys);
 
