@@ -86,6 +86,8 @@ inline std::string usdaText(const Triangles& triangles, const std::vector<std::v
 inline std::string usdcBytes(const Triangles& triangles, const std::vector<std::vector<Vec3d>>& samples,
                              double framesPerSecond) {
   CrateBytes crate;
+  for (const char* name : {"M", "points", "faceVertexCounts", "faceVertexIndices", "subdivisionScheme"})
+    crate.name(name);
   std::vector<std::int32_t> corners;
   for (const auto& triangle : triangles)
     for (const std::uint32_t corner : triangle) corners.push_back(static_cast<std::int32_t>(corner));
