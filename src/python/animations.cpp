@@ -160,24 +160,34 @@ UsdExtras usdExtrasOf(const UsdChoice& choice, const std::filesystem::path& path
   return extras;
 }
 
-WriterHandle makeWriter(const std::filesystem::path& path, const GroomHandle& groom, double fps, int frames,
-                        const std::optional<double>& metresPerUnit, const std::string& up, double width,
-                        const std::string& precision, const UsdChoice& usd) {
+struct WriterChoice {
+  double fps = 24;
+  int frames = 1000;
+  std::optional<double> metresPerUnit{};
+  std::string up = "Y";
+  double width = 0.0005;  // [m]
+  std::string precision = "float32";
+  UsdChoice usd{};
+};
+
+WriterHandle makeWriter(const std::filesystem::path& path, const GroomHandle& groom,
+                        const WriterChoice& choice) {
   constexpr int kMostFrames = 1'000'000;
-  if (frames < 1 || frames > kMostFrames)
-    throw py::value_error(fmt::format("frames must be from 1 to {}, got {}", kMostFrames, frames));
-  if (up != "Y" && up != "Z") throw py::value_error(unknownName("up axis", up, {"Y", "Z"}));
-  if (precision != "float32" && precision != "16bit")
-    throw py::value_error(unknownName("precision", precision, {"float32", "16bit"}));
+  if (choice.frames < 1 || choice.frames > kMostFrames)
+    throw py::value_error(fmt::format("frames must be from 1 to {}, got {}", kMostFrames, choice.frames));
+  if (choice.up != "Y" && choice.up != "Z")
+    throw py::value_error(unknownName("up axis", choice.up, {"Y", "Z"}));
+  if (choice.precision != "float32" && choice.precision != "16bit")
+    throw py::value_error(unknownName("precision", choice.precision, {"float32", "16bit"}));
   AnimationOptions options;
-  options.framesPerSecond = demandAbove("fps", fps);
+  options.framesPerSecond = demandAbove("fps", choice.fps);
   options.metresPerUnit =
-      demandAbove("metres_per_unit", metresPerUnit.value_or(groom->groom().metresPerUnit));
-  options.up = up == "Z" ? UpAxis::z : UpAxis::y;
-  options.diameter = static_cast<float>(demandAbove("width", width) / options.metresPerUnit);
-  options.frameCount = frames;
-  options.precision = precision == "16bit" ? CachePrecision::bits16 : CachePrecision::float32;
-  options.usd = usdExtrasOf(usd, path, options.metresPerUnit);
+      demandAbove("metres_per_unit", choice.metresPerUnit.value_or(groom->groom().metresPerUnit));
+  options.up = choice.up == "Z" ? UpAxis::z : UpAxis::y;
+  options.diameter = static_cast<float>(demandAbove("width", choice.width) / options.metresPerUnit);
+  options.frameCount = choice.frames;
+  options.precision = choice.precision == "16bit" ? CachePrecision::bits16 : CachePrecision::float32;
+  options.usd = usdExtrasOf(choice.usd, path, options.metresPerUnit);
   return std::make_shared<WriterObject>(path, groom, options);
 }
 
@@ -197,35 +207,10 @@ void writePositions(WriterObject& self, const py::object& positions, const py::o
   self.add(points, rigidTransform(pose.rotation, pose.position / self.metresPerUnit()));
 }
 
-void addWriter(py::module_& module) {
-  py::class_<WriterObject, WriterHandle>(
-      module, "AnimationWriter",
-      "An animation on its way into a file, frame by frame; the ending of its name says the format "
-      "(AnimationWriter.formats()). Until it is finished the file is PATH.partial, whole at every moment. As "
-      "a context manager it finishes at the end; after an exception the .partial stays, with the frames so "
-      "far:\n\n"
-      "    with ringlet.AnimationWriter(\"hair.usda\", groom, frames=48) as animation:\n"
-      "        scene.run(lambda frame: animation.write(frame.positions, frame.head), frames=48)")
-      .def(
-          py::init([](const std::filesystem::path& path, const GroomHandle& groom, double fps, int frames,
-                      const std::optional<double>& metresPerUnit, const std::string& up, double width,
-                      const std::string& precision, const std::optional<double>& tipWidth,
-                      const std::vector<std::string>& values, const std::string& head, int clipFrames) {
-            return makeWriter(path, groom, fps, frames, metresPerUnit, up, width, precision,
-                              {tipWidth, values, head, clipFrames});
-          }),
-          py::arg("path"), py::arg("groom").none(false), py::kw_only(), py::arg("fps") = 24.0,
-          py::arg("frames") = 1000, py::arg("metres_per_unit") = py::none(), py::arg("up") = "Y",
-          py::arg("width") = 0.0005, py::arg("precision") = "float32", py::arg("tip_width") = py::none(),
-          py::arg("values") = std::vector<std::string>{}, py::arg("head") = "baked",
-          py::arg("clip_frames") = 0,
-          "fps: frames per second; frames: the most that will come, for which USD files keep room; "
-          "metres_per_unit: of the file, None: the groom's; up: \"Y\" or \"Z\"; width: of strands [m]; "
-          "precision: of .rgc, \"float32\" or \"16bit\". Of .usda and .usdc: tip_width: of strands at the "
-          "tip [m], None: as width; values: of \"id\", \"rest\" and \"velocities\" (.usdc and clips only); "
-          "head: where the motion of write()'s head is, \"baked\" into the points, as a \"transform\" of the "
-          "prim, or \"none\"; clip_frames: frames of a value clip of a .usda, 0: one file. ringlet.Error "
-          "where the file cannot be written.")
+using WriterClass = py::class_<WriterObject, WriterHandle>;
+
+void addWriterFrames(WriterClass& writer) {
+  writer
       .def(
           "write", &writePositions, py::arg("positions"), py::arg("head") = py::none(),
           "Adds a frame: (particles, 3) float32 [m] seen from the head, as positions() gives them, and where "
@@ -244,7 +229,11 @@ void addWriter(py::module_& module) {
       .def("finish", &WriterObject::finish, "Closes the file, of one frame at least, and gives it its name.")
       .def("close", &WriterObject::close,
            "Closes the file without its name: the frames so far stay as PATH.partial. Nothing where it is "
-           "closed or finished. A writer that is dropped open does so with a ResourceWarning.")
+           "closed or finished. A writer that is dropped open does so with a ResourceWarning.");
+}
+
+void addWriterState(WriterClass& writer) {
+  writer
       .def(
           "__repr__",
           [](const WriterObject& self) {
@@ -269,6 +258,44 @@ void addWriter(py::module_& module) {
           },
           py::arg("type"), py::arg("value"), py::arg("traceback"),
           "Finishes the file; after an exception leaves it as PATH.partial.");
+}
+
+void addWriter(py::module_& module) {
+  WriterClass writer(
+      module, "AnimationWriter",
+      "An animation on its way into a file, frame by frame; the ending of its name says the format "
+      "(AnimationWriter.formats()). Until it is finished the file is PATH.partial, whole at every moment. As "
+      "a context manager it finishes at the end; after an exception the .partial stays, with the frames so "
+      "far:\n\n"
+      "    with ringlet.AnimationWriter(\"hair.usda\", groom, frames=48) as animation:\n"
+      "        scene.run(lambda frame: animation.write(frame.positions, frame.head), frames=48)");
+  writer.def(
+      py::init([](const std::filesystem::path& path, const GroomHandle& groom, double fps, int frames,
+                  const std::optional<double>& metresPerUnit, const std::string& up, double width,
+                  const std::string& precision, const std::optional<double>& tipWidth,
+                  const std::vector<std::string>& values, const std::string& head, int clipFrames) {
+        return makeWriter(path, groom,
+                          {.fps = fps,
+                           .frames = frames,
+                           .metresPerUnit = metresPerUnit,
+                           .up = up,
+                           .width = width,
+                           .precision = precision,
+                           .usd = {tipWidth, values, head, clipFrames}});
+      }),
+      py::arg("path"), py::arg("groom").none(false), py::kw_only(), py::arg("fps") = 24.0,
+      py::arg("frames") = 1000, py::arg("metres_per_unit") = py::none(), py::arg("up") = "Y",
+      py::arg("width") = 0.0005, py::arg("precision") = "float32", py::arg("tip_width") = py::none(),
+      py::arg("values") = std::vector<std::string>{}, py::arg("head") = "baked", py::arg("clip_frames") = 0,
+      "fps: frames per second; frames: the most that will come, for which USD files keep room; "
+      "metres_per_unit: of the file, None: the groom's; up: \"Y\" or \"Z\"; width: of strands [m]; "
+      "precision: of .rgc, \"float32\" or \"16bit\". Of .usda and .usdc: tip_width: of strands at the "
+      "tip [m], None: as width; values: of \"id\", \"rest\" and \"velocities\" (.usdc and clips only); "
+      "head: where the motion of write()'s head is, \"baked\" into the points, as a \"transform\" of the "
+      "prim, or \"none\"; clip_frames: frames of a value clip of a .usda, 0: one file. ringlet.Error "
+      "where the file cannot be written.");
+  addWriterFrames(writer);
+  addWriterState(writer);
 }
 
 // Frames one after the other, from the first.

@@ -190,34 +190,17 @@ Variation variationOf(double radius, double length, double phase, double leftHan
   return {
       .radius = radius, .length = length, .phase = phase, .leftHandedShare = leftHandedShare, .seed = seed};
 }
-CurlParameters curlOf(double radius, double turns, double length, int particles, int handedness, double phase,
-                      double metresPerUnit) {
-  return {.radius = radius,
-          .turns = turns,
-          .length = length,
-          .particleCount = particles,
-          .handedness = handedness,
-          .phase = phase,
-          .metresPerUnit = metresPerUnit};
-}
 GroomHandle generated(Result<Groom> made, const CurlParameters& curl) {
   LoadedGroom loaded{valueOf(std::move(made)), {}};
   if (const auto warning = coarseCurlWarning(curl)) loaded.warnings.push_back(*warning);
   return std::make_shared<GroomObject>(std::move(loaded));
 }
 
-void addGroomClass(py::module_& module) {
-  py::class_<GroomObject, GroomHandle>(
-      module, "Groom",
-      "Strands at rest: points of all of them, root first, one strand after the other. Constant.")
-      .def(py::init(&makeGroom), py::arg("points"), py::arg("first_point") = py::none(), py::kw_only(),
-           py::arg("counts") = py::none(), py::arg("metres_per_unit") = 0.01,
-           "A groom of arrays; they are copied.\n\n"
-           "points: (particles, 3) float32, in a unit of metres_per_unit metres. Strand s is "
-           "points[first_point[s]:first_point[s + 1]]: first_point has strands + 1 whole numbers, from 0 to "
-           "the number of particles; or say counts, the particles of each strand, two at least.\n\n"
-           "TypeError for another type of array, ValueError for another shape, strands that do not fit, a "
-           "point that is not finite.")
+using GroomClass = py::class_<GroomObject, GroomHandle>;
+
+// Its points and counts.
+void addGroomArrays(GroomClass& groomClass) {
+  groomClass
       .def_property_readonly(
           "points",
           [](const py::object& self) { return viewOf(self.cast<const GroomObject&>().groom().points, self); },
@@ -245,7 +228,12 @@ void addGroomClass(py::module_& module) {
       .def_property_readonly("particle_count", &GroomObject::particleCount,
                              "How many particles all strands have.")
       .def_property_readonly("warnings", &GroomObject::warnings,
-                             "What was odd about its file or its curls: a list of sentences.")
+                             "What was odd about its file or its curls: a list of sentences.");
+}
+
+// What can be done with it.
+void addGroomUses(GroomClass& groomClass) {
+  groomClass
       .def("strand", &strandOf, py::arg("index"),
            "The points of one strand: a view, (its particles, 3) float32. IndexError beyond the last.")
       .def(
@@ -278,6 +266,144 @@ void addGroomClass(py::module_& module) {
           "__len__", [](const GroomObject& self) { return self.groom().strandCount(); },
           "How many strands there are.")
       .def("__repr__", &groomReprOf, "What it is, in a line.");
+}
+
+void addGroomClass(py::module_& module) {
+  GroomClass groomClass(
+      module, "Groom",
+      "Strands at rest: points of all of them, root first, one strand after the other. Constant.");
+  groomClass.def(
+      py::init(&makeGroom), py::arg("points"), py::arg("first_point") = py::none(), py::kw_only(),
+      py::arg("counts") = py::none(), py::arg("metres_per_unit") = 0.01,
+      "A groom of arrays; they are copied.\n\n"
+      "points: (particles, 3) float32, in a unit of metres_per_unit metres. Strand s is "
+      "points[first_point[s]:first_point[s + 1]]: first_point has strands + 1 whole numbers, from 0 to "
+      "the number of particles; or say counts, the particles of each strand, two at least.\n\n"
+      "TypeError for another type of array, ValueError for another shape, strands that do not fit, a "
+      "point that is not finite.");
+  addGroomArrays(groomClass);
+  addGroomUses(groomClass);
+}
+
+void addCurlMakers(py::module_& module) {
+  const CurlParameters c;
+  const Variation v;
+  const SwatchParameters w;
+  module.def(
+      "make_curl",
+      [](double radius, double turns, double length, int particles, int handedness, double phase,
+         double metresPerUnit) {
+        const CurlParameters curl{.radius = radius,
+                                  .turns = turns,
+                                  .length = length,
+                                  .particleCount = particles,
+                                  .handedness = handedness,
+                                  .phase = phase,
+                                  .metresPerUnit = metresPerUnit};
+        return generated(makeCurl(curl), curl);
+      },
+      py::kw_only(), py::arg("radius") = c.radius, py::arg("turns") = c.turns, py::arg("length") = c.length,
+      py::arg("particles") = c.particleCount, py::arg("handedness") = c.handedness,
+      py::arg("phase") = c.phase, py::arg("metres_per_unit") = c.metresPerUnit,
+      "One curl that hangs from the origin: a helix of this radius about its core [m], with so many turns "
+      "over the core's length [m]. handedness: 1 or -1; phase: where about the core it begins [rad]. "
+      "ringlet.Error for a number out of its range.");
+  module.def(
+      "make_swatch",
+      [](int columns, int rows, double spacing, double radius, double turns, double length, int particles,
+         int handedness, double phase, double varyRadius, double varyLength, double varyPhase,
+         double leftHandedShare, std::uint64_t seed, double metresPerUnit) {
+        const CurlParameters curl{.radius = radius,
+                                  .turns = turns,
+                                  .length = length,
+                                  .particleCount = particles,
+                                  .handedness = handedness,
+                                  .phase = phase,
+                                  .metresPerUnit = metresPerUnit};
+        return withoutGil([&] {
+          return generated(
+              makeSwatch({.curl = curl,
+                          .variation = variationOf(varyRadius, varyLength, varyPhase, leftHandedShare, seed),
+                          .columnCount = columns,
+                          .rowCount = rows,
+                          .spacing = spacing}),
+              curl);
+        });
+      },
+      py::kw_only(), py::arg("columns") = w.columnCount, py::arg("rows") = w.rowCount,
+      py::arg("spacing") = w.spacing, py::arg("radius") = c.radius, py::arg("turns") = c.turns,
+      py::arg("length") = c.length, py::arg("particles") = c.particleCount,
+      py::arg("handedness") = c.handedness, py::arg("phase") = c.phase, py::arg("vary_radius") = v.radius,
+      py::arg("vary_length") = v.length, py::arg("vary_phase") = v.phase,
+      py::arg("left_handed_share") = v.leftHandedShare, py::arg("seed") = v.seed,
+      py::arg("metres_per_unit") = c.metresPerUnit,
+      "Curls that hang side by side, spacing apart [m], in columns along X and rows along Z. vary_radius and "
+      "vary_length: largest differences, as shares; vary_phase: a share of a turn; left_handed_share: of the "
+      "strands that wind the other way. Everything else as in make_curl.");
+}
+
+GroomHandle styledHead(const std::string& style, int strands, int particles, std::uint64_t seed,
+                       double metresPerUnit) {
+  auto head = headOfStyle(style);
+  if (!head) throw py::value_error(fmt::format("style must be one of {}, got '{}'", kHairStyles, style));
+  head->strandCount = strands;
+  head->curl.particleCount = particles;
+  head->curl.metresPerUnit = metresPerUnit;
+  head->variation.seed = seed;
+  return withoutGil([&] { return generated(makeHead(*head), head->curl); });
+}
+
+void addHeadMakers(py::module_& module) {
+  const CurlParameters c;
+  const Variation v;
+  const HeadParameters h;
+  module.def(
+      "make_head",
+      [](int strands, int locks, double scalpRadius, double browElevation, double napeElevation,
+         double bendLength, double rampShare, double radius, double turns, double length, int particles,
+         int handedness, double phase, double varyRadius, double varyLength, double varyPhase,
+         double leftHandedShare, std::uint64_t seed, double metresPerUnit) {
+        const CurlParameters curl{.radius = radius,
+                                  .turns = turns,
+                                  .length = length,
+                                  .particleCount = particles,
+                                  .handedness = handedness,
+                                  .phase = phase,
+                                  .metresPerUnit = metresPerUnit};
+        return withoutGil([&] {
+          return generated(
+              makeHead({.curl = curl,
+                        .variation = variationOf(varyRadius, varyLength, varyPhase, leftHandedShare, seed),
+                        .strandCount = strands,
+                        .lockCount = locks,
+                        .scalpRadius = scalpRadius,
+                        .browElevation = browElevation,
+                        .napeElevation = napeElevation,
+                        .bendLength = bendLength,
+                        .rampShare = rampShare}),
+              curl);
+        });
+      },
+      py::kw_only(), py::arg("strands") = h.strandCount, py::arg("locks") = h.lockCount,
+      py::arg("scalp_radius") = h.scalpRadius, py::arg("brow_elevation") = h.browElevation,
+      py::arg("nape_elevation") = h.napeElevation, py::arg("bend_length") = h.bendLength,
+      py::arg("ramp_share") = h.rampShare, py::arg("radius") = c.radius, py::arg("turns") = c.turns,
+      py::arg("length") = c.length, py::arg("particles") = c.particleCount,
+      py::arg("handedness") = c.handedness, py::arg("phase") = c.phase, py::arg("vary_radius") = v.radius,
+      py::arg("vary_length") = v.length, py::arg("vary_phase") = v.phase,
+      py::arg("left_handed_share") = v.leftHandedShare, py::arg("seed") = v.seed,
+      py::arg("metres_per_unit") = c.metresPerUnit,
+      "A head of curls: a sphere of scalp_radius [m] about the origin whose hair grows above a hairline, "
+      "brow_elevation high in front and nape_elevation behind [rad]. A strand turns from the scalp's normal "
+      "to hanging within bend_length [m]; its curl grows to its radius over ramp_share of its length. locks: "
+      "of curls that wind alike; 0: each for itself. Y is up, the face looks along +Z. Everything else as in "
+      "make_swatch.");
+  module.def(
+      "make_styled_head", &styledHead, py::arg("style"), py::kw_only(), py::arg("strands") = h.strandCount,
+      py::arg("particles") = c.particleCount, py::arg("seed") = v.seed,
+      py::arg("metres_per_unit") = c.metresPerUnit,
+      "A head of a hair style, cut and combed: a name that `ringlet make head --help` lists. ValueError for "
+      "another one, ringlet.Error for a number out of its range.");
 }
 
 }  // namespace
@@ -313,105 +439,8 @@ void addGrooms(py::module_& module) {
       "have an end. up: the axis that is to point up, Y or Z, to which a USD file is turned. What was odd "
       "about the file, or seems wrong with the groom, is in its warnings. ringlet.Error for a file that is "
       "missing or broken.");
-
-  const CurlParameters c;
-  const Variation v;
-  const SwatchParameters w;
-  const HeadParameters h;
-  module.def(
-      "make_curl",
-      [](double radius, double turns, double length, int particles, int handedness, double phase,
-         double metresPerUnit) {
-        const CurlParameters curl =
-            curlOf(radius, turns, length, particles, handedness, phase, metresPerUnit);
-        return generated(makeCurl(curl), curl);
-      },
-      py::kw_only(), py::arg("radius") = c.radius, py::arg("turns") = c.turns, py::arg("length") = c.length,
-      py::arg("particles") = c.particleCount, py::arg("handedness") = c.handedness,
-      py::arg("phase") = c.phase, py::arg("metres_per_unit") = c.metresPerUnit,
-      "One curl that hangs from the origin: a helix of this radius about its core [m], with so many turns "
-      "over the core's length [m]. handedness: 1 or -1; phase: where about the core it begins [rad]. "
-      "ringlet.Error for a number out of its range.");
-  module.def(
-      "make_swatch",
-      [](int columns, int rows, double spacing, double radius, double turns, double length, int particles,
-         int handedness, double phase, double varyRadius, double varyLength, double varyPhase,
-         double leftHandedShare, std::uint64_t seed, double metresPerUnit) {
-        const CurlParameters curl =
-            curlOf(radius, turns, length, particles, handedness, phase, metresPerUnit);
-        return withoutGil([&] {
-          return generated(
-              makeSwatch({.curl = curl,
-                          .variation = variationOf(varyRadius, varyLength, varyPhase, leftHandedShare, seed),
-                          .columnCount = columns,
-                          .rowCount = rows,
-                          .spacing = spacing}),
-              curl);
-        });
-      },
-      py::kw_only(), py::arg("columns") = w.columnCount, py::arg("rows") = w.rowCount,
-      py::arg("spacing") = w.spacing, py::arg("radius") = c.radius, py::arg("turns") = c.turns,
-      py::arg("length") = c.length, py::arg("particles") = c.particleCount,
-      py::arg("handedness") = c.handedness, py::arg("phase") = c.phase, py::arg("vary_radius") = v.radius,
-      py::arg("vary_length") = v.length, py::arg("vary_phase") = v.phase,
-      py::arg("left_handed_share") = v.leftHandedShare, py::arg("seed") = v.seed,
-      py::arg("metres_per_unit") = c.metresPerUnit,
-      "Curls that hang side by side, spacing apart [m], in columns along X and rows along Z. vary_radius and "
-      "vary_length: largest differences, as shares; vary_phase: a share of a turn; left_handed_share: of the "
-      "strands that wind the other way. Everything else as in make_curl.");
-  module.def(
-      "make_head",
-      [](int strands, int locks, double scalpRadius, double browElevation, double napeElevation,
-         double bendLength, double rampShare, double radius, double turns, double length, int particles,
-         int handedness, double phase, double varyRadius, double varyLength, double varyPhase,
-         double leftHandedShare, std::uint64_t seed, double metresPerUnit) {
-        const CurlParameters curl =
-            curlOf(radius, turns, length, particles, handedness, phase, metresPerUnit);
-        return withoutGil([&] {
-          return generated(
-              makeHead({.curl = curl,
-                        .variation = variationOf(varyRadius, varyLength, varyPhase, leftHandedShare, seed),
-                        .strandCount = strands,
-                        .lockCount = locks,
-                        .scalpRadius = scalpRadius,
-                        .browElevation = browElevation,
-                        .napeElevation = napeElevation,
-                        .bendLength = bendLength,
-                        .rampShare = rampShare}),
-              curl);
-        });
-      },
-      py::kw_only(), py::arg("strands") = h.strandCount, py::arg("locks") = h.lockCount,
-      py::arg("scalp_radius") = h.scalpRadius, py::arg("brow_elevation") = h.browElevation,
-      py::arg("nape_elevation") = h.napeElevation, py::arg("bend_length") = h.bendLength,
-      py::arg("ramp_share") = h.rampShare, py::arg("radius") = c.radius, py::arg("turns") = c.turns,
-      py::arg("length") = c.length, py::arg("particles") = c.particleCount,
-      py::arg("handedness") = c.handedness, py::arg("phase") = c.phase, py::arg("vary_radius") = v.radius,
-      py::arg("vary_length") = v.length, py::arg("vary_phase") = v.phase,
-      py::arg("left_handed_share") = v.leftHandedShare, py::arg("seed") = v.seed,
-      py::arg("metres_per_unit") = c.metresPerUnit,
-      "A head of curls: a sphere of scalp_radius [m] about the origin whose hair grows above a hairline, "
-      "brow_elevation high in front and nape_elevation behind [rad]. A strand turns from the scalp's normal "
-      "to hanging within bend_length [m]; its curl grows to its radius over ramp_share of its length. locks: "
-      "of curls that wind alike; 0: each for itself. Y is up, the face looks along +Z. Everything else as in "
-      "make_swatch.");
-  module.def(
-      "make_styled_head",
-      [](const std::string& style, int strands, int particles, std::uint64_t seed, double metresPerUnit) {
-        auto head = headOfStyle(style);
-        if (!head)
-          throw py::value_error(fmt::format("style must be one of {}, got '{}'", kHairStyles, style));
-        head->strandCount = strands;
-        head->curl.particleCount = particles;
-        head->curl.metresPerUnit = metresPerUnit;
-        head->variation.seed = seed;
-        return withoutGil([&] { return generated(makeHead(*head), head->curl); });
-      },
-      py::arg("style"), py::kw_only(), py::arg("strands") = h.strandCount,
-      py::arg("particles") = c.particleCount, py::arg("seed") = v.seed,
-      py::arg("metres_per_unit") = c.metresPerUnit,
-      "A head of a hair style, cut and combed: a name that `ringlet make head --help` lists. ValueError for "
-      "another one, ringlet.Error for a number out of its range.");
+  addCurlMakers(module);
+  addHeadMakers(module);
   module.def(
       "write_obj",
       [](const std::filesystem::path& path, const GroomObject& groom, const py::object& points) {

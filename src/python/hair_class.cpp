@@ -39,33 +39,37 @@ HairObject::Frame frameOf(const py::object& head, const py::object& bodyPoses, c
   return {headWayOf(head), bodyPosesOf(bodyPoses, "body_poses"), bodyPosesOf(rootPoses, "root_poses")};
 }
 
-HairHandle newHair(const AssetHandle& asset, const py::object& head, const py::object& oneStepEarlier,
-                   const std::vector<BodyObject>& given, const py::object& bodyPlaces,
-                   const py::object& roots, const py::object& rootsEarlier, const py::object& rootShifts) {
+// As Python gives it.
+struct HairStart {
+  py::object head, oneStepEarlier, bodyPlaces, roots, rootsEarlier, rootShifts;
+};
+
+HairHandle newHair(const AssetHandle& asset, const std::vector<BodyObject>& given, const HairStart& start) {
   const std::size_t strands = asset->asset.strandCount();
   const std::vector<Body> bodies = bodiesOf(given);
   InitialState initial;
-  if (!head.is_none()) initial.head = poseOf(head, "head");
-  if (!oneStepEarlier.is_none()) initial.oneStepEarlier = poseOf(oneStepEarlier, "one_step_earlier");
+  if (!start.head.is_none()) initial.head = poseOf(start.head, "head");
+  if (!start.oneStepEarlier.is_none())
+    initial.oneStepEarlier = poseOf(start.oneStepEarlier, "one_step_earlier");
   initial.bodies = bodies;
   const auto fits = [](const char* name, std::size_t count, std::size_t wanted, const char* what) {
     if (count != 0 && count != wanted)
       throw py::value_error(
           fmt::format("{} must have one row for each of {} {}, got {}", name, wanted, what, count));
   };
-  const std::vector<BodyPose> places = bodyPosesOf(bodyPlaces, "body_places");
+  const std::vector<BodyPose> places = bodyPosesOf(start.bodyPlaces, "body_places");
   fits("body_places", places.size(), bodies.size(), "bodies");
   initial.bodyPlaces = places;
-  const std::vector<BodyPose> now = bodyPosesOf(roots, "roots");
-  std::vector<BodyPose> earlier = bodyPosesOf(rootsEarlier, "roots_earlier");
+  const std::vector<BodyPose> now = bodyPosesOf(start.roots, "roots");
+  std::vector<BodyPose> earlier = bodyPosesOf(start.rootsEarlier, "roots_earlier");
   fits("roots", now.size(), strands, "strands");
   fits("roots_earlier", earlier.size(), strands, "strands");
   if (now.empty() && !earlier.empty()) throw py::value_error("roots_earlier takes roots, where they are now");
   if (earlier.empty()) earlier = now;
   initial.roots = now, initial.rootsEarlier = earlier;
   std::vector<Vec3d> shifts;
-  if (!rootShifts.is_none()) {
-    const Rows rows = rowsOf(rootShifts, "root_shifts", 3);
+  if (!start.rootShifts.is_none()) {
+    const Rows rows = rowsOf(start.rootShifts, "root_shifts", 3);
     for (std::size_t s = 0; s < rows.count(3); ++s)
       shifts.push_back({rows.values[3 * s], rows.values[3 * s + 1], rows.values[3 * s + 2]});
     fits("root_shifts", shifts.size(), strands, "strands");
@@ -141,21 +145,31 @@ void changeMaterial(HairObject& self, const py::object& material, const py::kwar
   self.setMaterial(dialled(holder.cast<const MaterialObject&>(), warnings));
 }
 
-void addHairClass(py::module_& module) {
-  py::class_<HairObject, HairHandle>(
-      module, "Hair",
-      "The hair of one head. It is at rest when it is made. A frame is as many steps as the settings say.\n\n"
-      "An error of the device loses it: everything that is asked of it then raises ringlet.Error again.")
-      .def(py::init(&newHair), py::arg("asset").none(false), py::kw_only(), py::arg("head") = py::none(),
-           py::arg("one_step_earlier") = py::none(), py::arg("bodies") = std::vector<BodyObject>{},
-           py::arg("body_places") = py::none(), py::arg("roots") = py::none(),
-           py::arg("roots_earlier") = py::none(), py::arg("root_shifts") = py::none(),
-           "head: where the head is, a Pose; one_step_earlier: where it was one step before, so that hair "
-           "moves with it. bodies: a list of Body; body_places: where they are "
-           "in the world, (bodies, 7); None: where they are at t = 0. roots, roots_earlier: "
-           "strands' own poses now and one step before, (strands, 7). root_shifts: how far "
-           "each root moves beside the head at shift 1, (strands, 3) [m].")
-      .def(
+void setGoals(HairObject& self, const py::object& places, const py::object& strengths, double damping) {
+  const std::size_t count = self.asset()->groom->particleCount();
+  const PointsIn taken(places, "places", count);
+  demandEach(taken.points(), "places", kOutsidePlace, "m");
+  const std::vector<float> pulls = strengthsIn(strengths, count);
+  if (!kGoalDamping.contains(damping))
+    throw py::value_error(
+        fmt::format("damping is from {} to {}, got {}", kGoalDamping.low, kGoalDamping.high, damping));
+  self.ask([&](Simulation& simulation) { demand(simulation.setGoals(taken.points(), pulls, damping)); });
+}
+
+// Pairs of strand and the particles that it keeps.
+void cutStrands(HairObject& self, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& cuts) {
+  std::vector<StrandCut> all;
+  for (const auto& [strand, keep] : cuts) all.push_back({strand, keep});
+  self.ask([&](Simulation& simulation) {
+    self.demandNoneInFlight("cut");
+    demand(simulation.cut(all));
+  });
+}
+
+using HairClass = py::class_<HairObject, HairHandle>;
+
+void addFrameSteps(HairClass& hair) {
+  hair.def(
           "step",
           [](HairObject& self, const py::object& head, const py::object& bodyPoses,
              const py::object& rootPoses) { self.step(frameOf(head, bodyPoses, rootPoses)); },
@@ -174,8 +188,11 @@ void addHairClass(py::module_& module) {
           "Hands a frame to the device and returns: wait() for it later. Two may be under way. Takes what "
           "step takes, and gives the same bits.")
       .def("wait", &HairObject::wait,
-           "Waits for the oldest frame that was submitted; positions() then are that one's.")
-      .def(
+           "Waits for the oldest frame that was submitted; positions() then are that one's.");
+}
+
+void addState(HairClass& hair) {
+  hair.def(
           "positions",
           [](HairObject& self, const py::object& out) {
             demandOut(out, self.asset()->groom->particleCount());
@@ -206,8 +223,12 @@ void addHairClass(py::module_& module) {
             self.setState({{p.points().begin(), p.points().end()}, {v.points().begin(), v.points().end()}});
           },
           py::arg("positions"), py::arg("velocities"),
-          "Puts all particles where positions() and velocities() say, (particles, 3) float32 each.")
-      .def_property_readonly(
+          "Puts all particles where positions() and velocities() say, (particles, 3) float32 each.");
+}
+
+// Its settings, material and kernels.
+void addNumbers(HairClass& hair) {
+  hair.def_property_readonly(
           "settings", [](HairObject& self) { return self.ask([](Simulation& s) { return s.settings(); }); },
           "A copy of the Settings now: change it and hand it to set_settings.")
       .def_property_readonly(
@@ -243,8 +264,12 @@ void addHairClass(py::module_& module) {
           },
           py::arg("features"),
           "Adds features (as Asset's) now, which waits for frames in flight and compiles kernels; else their "
-          "first use does.")
-      .def(
+          "first use does.");
+}
+
+// What acts on it from outside.
+void addActing(HairClass& hair) {
+  hair.def(
           "set_bodies",
           [](HairObject& self, const std::vector<BodyObject>& bodies, const py::object& places) {
             self.setBodies(bodiesOf(bodies), bodyPosesOf(places, "places"));
@@ -263,39 +288,17 @@ void addHairClass(py::module_& module) {
           "Forces from outside from the next frame on, on each kilogram of every particle [m/s^2]: "
           "(particles, 3) float32. They add to gravity and hold until others are set.")
       .def(
-          "set_goals",
-          [](HairObject& self, const py::object& places, const py::object& strengths, double damping) {
-            const std::size_t count = self.asset()->groom->particleCount();
-            const PointsIn taken(places, "places", count);
-            demandEach(taken.points(), "places", kOutsidePlace, "m");
-            const std::vector<float> pulls = strengthsIn(strengths, count);
-            if (!kGoalDamping.contains(damping))
-              throw py::value_error(fmt::format("damping is from {} to {}, got {}", kGoalDamping.low,
-                                                kGoalDamping.high, damping));
-            self.ask(
-                [&](Simulation& simulation) { demand(simulation.setGoals(taken.points(), pulls, damping)); });
-          },
-          py::arg("places"), py::arg("strengths"), py::arg("damping") = 1.0,
+          "set_goals", &setGoals, py::arg("places"), py::arg("strengths"), py::arg("damping") = 1.0,
           "Places that particles are pulled to: (particles, 3) float32, in metres in the groom's axes, "
           "carried by the head; groom.points times metres_per_unit is the rest pose. They are reached at the "
           "end of the next frame and hold until others are set. strengths: of all particles, or one of each, "
           "(particles,): weights of the hair a centimetre from its place, 0 or more. damping: ratio about "
           "the place, 1 is critical.")
-      .def(
-          "cut",
-          [](HairObject& self, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& cuts) {
-            std::vector<StrandCut> all;
-            for (const auto& [strand, keep] : cuts) all.push_back({strand, keep});
-            self.ask([&](Simulation& simulation) {
-              self.demandNoneInFlight("cut");
-              demand(simulation.cut(all));
-            });
-          },
-          py::arg("cuts"),
-          "Cuts strands from the next frame on: pairs (strand, keep); the particles from keep on fall, with "
-          "bodies, air, fields and hair that meets pair by pair; strands that are carried rigidly stay "
-          "whole. With no frame in flight. ringlet.Error where nothing would fall or fewer than two "
-          "particles would stay.")
+      .def("cut", &cutStrands, py::arg("cuts"),
+           "Cuts strands from the next frame on: pairs (strand, keep); the particles from keep on fall, with "
+           "bodies, air, fields and hair that meets pair by pair; strands that are carried rigidly stay "
+           "whole. With no frame in flight. ringlet.Error where nothing would fall or fewer than two "
+           "particles would stay.")
       .def(
           "set_fields",
           [](HairObject& self, const std::vector<ForceField>& fields, const std::vector<ForceField>& from) {
@@ -307,8 +310,11 @@ void addHairClass(py::module_& module) {
           py::arg("fields"), py::arg("come_from") = py::list(),
           "Fields as they are at the end of the next frame, any number up to 64; they hold until others are "
           "set. come_from: the same ones at its start, from where they change evenly; without, they are "
-          "there at once.")
-      .def(
+          "there at once.");
+}
+
+void addCheckpoints(HairClass& hair) {
+  hair.def(
           "checkpoint",
           [](HairObject& self) {
             const std::vector<std::byte> bytes = self.checkpoint();
@@ -324,8 +330,12 @@ void addHairClass(py::module_& module) {
           },
           py::arg("checkpoint"),
           "Goes on from a checkpoint of hair of such an asset: the same bits as if it had stepped all frames "
-          "itself. ringlet.Error for bytes that are damaged or of other hair.")
-      .def(
+          "itself. ringlet.Error for bytes that are damaged or of other hair.");
+}
+
+// What there is to know of it.
+void addReports(HairClass& hair) {
+  hair.def(
           "report", &hairReportOf,
           "What happened to the numbers since it was made: a dict of max_edge_stretch (longest edge over the "
           "groom's), limited_share (of edges that the stretch limit touched), nonfinite (particles without a "
@@ -370,6 +380,40 @@ void addHairClass(py::module_& module) {
                                asset.asset.particleCount(), asset.device->device.name());
           },
           "What it is, in a line.");
+}
+
+void addHairClass(py::module_& module) {
+  HairClass hair(
+      module, "Hair",
+      "The hair of one head. It is at rest when it is made. A frame is as many steps as the settings say.\n\n"
+      "An error of the device loses it: everything that is asked of it then raises ringlet.Error again.");
+  hair.def(
+      py::init([](const AssetHandle& asset, const py::object& head, const py::object& oneStepEarlier,
+                  const std::vector<BodyObject>& bodies, const py::object& bodyPlaces,
+                  const py::object& roots, const py::object& rootsEarlier, const py::object& rootShifts) {
+        return newHair(asset, bodies,
+                       {.head = head,
+                        .oneStepEarlier = oneStepEarlier,
+                        .bodyPlaces = bodyPlaces,
+                        .roots = roots,
+                        .rootsEarlier = rootsEarlier,
+                        .rootShifts = rootShifts});
+      }),
+      py::arg("asset").none(false), py::kw_only(), py::arg("head") = py::none(),
+      py::arg("one_step_earlier") = py::none(), py::arg("bodies") = std::vector<BodyObject>{},
+      py::arg("body_places") = py::none(), py::arg("roots") = py::none(),
+      py::arg("roots_earlier") = py::none(), py::arg("root_shifts") = py::none(),
+      "head: where the head is, a Pose; one_step_earlier: where it was one step before, so that hair "
+      "moves with it. bodies: a list of Body; body_places: where they are "
+      "in the world, (bodies, 7); None: where they are at t = 0. roots, roots_earlier: "
+      "strands' own poses now and one step before, (strands, 7). root_shifts: how far "
+      "each root moves beside the head at shift 1, (strands, 3) [m].");
+  addFrameSteps(hair);
+  addState(hair);
+  addNumbers(hair);
+  addActing(hair);
+  addCheckpoints(hair);
+  addReports(hair);
 }
 
 // Each is (hair, head), (hair, head, body_poses) or (hair, head, body_poses, root_poses).

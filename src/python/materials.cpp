@@ -207,28 +207,10 @@ void addParameters(Class& material) {
           py::arg("name"), py::arg("value"), "AttributeError for a name that there is not.");
 }
 
-}  // namespace
+using MaterialClass = py::class_<MaterialObject>;
 
-Material dialled(const MaterialObject& object, std::vector<std::string>& warnings) {
-  Material material = object.material;
-  if (const auto warning = applyDials(object.dials, material)) warnings.push_back(*warning);
-  if (Status checked = checkMaterial(material); !checked) {
-    const MaterialDials& dials = object.dials;
-    if (dials == MaterialDials{}) throw Failure(checked.error());
-    throw Failure(
-        {fmt::format("{}, with the dials worked in: {}", checked.error().message, dialsText(dials))});
-  }
-  return material;
-}
-
-void addMaterials(py::module_& module) {
-  py::class_<MaterialObject> material(
-      module, "Material",
-      "What hair is made of: numbers by name, as `material[\"bend_stiffness\"]` or "
-      "`material.bend_stiffness`. Names with a table in front, \"dials.hold\", \"variation.bend_stiffness\", "
-      "\"profile.bend_stiffness\", have brackets only. Material.parameters() lists all with units and "
-      "ranges. Numbers of unit w are multiples of a strand's own weight.\n\n"
-      "Dials are worked in where the material is used.");
+// The ways to make one.
+void addMaterialSources(MaterialClass& material) {
   material
       .def(py::init([](const py::kwargs& numbers) {
              MaterialObject made;
@@ -258,7 +240,11 @@ void addMaterials(py::module_& module) {
       .def_static(
           "parameters", &listParameters,
           "Every number: a list of dicts of key, unit, effect, low and high (beyond them is refused), "
-          "usual_low and usual_high, default. None: measured on the rest curl.")
+          "usual_low and usual_high, default. None: measured on the rest curl.");
+}
+
+void addMaterialFile(MaterialClass& material) {
+  material
       .def(
           "write",
           [](const MaterialObject& self, const std::filesystem::path& path) {
@@ -273,7 +259,12 @@ void addMaterials(py::module_& module) {
           "__copy__", [](const MaterialObject& self) { return self; }, "As copy.")
       .def(
           "__deepcopy__", [](const MaterialObject& self, const py::object&) { return self; }, py::arg("memo"),
-          "As copy.")
+          "As copy.");
+}
+
+// Its numbers by name.
+void addMaterialNumbers(MaterialClass& material) {
+  material
       .def(
           "keys", [](const py::object&) { return materialKeys(); }, "The names of all numbers: a list.")
       .def(
@@ -307,6 +298,33 @@ void addMaterials(py::module_& module) {
           },
           py::arg("other"), "Whether all numbers are the same.")
       .def("__repr__", &materialReprOf, "The numbers that are not the default.");
+}
+
+}  // namespace
+
+Material dialled(const MaterialObject& object, std::vector<std::string>& warnings) {
+  Material material = object.material;
+  if (const auto warning = applyDials(object.dials, material)) warnings.push_back(*warning);
+  if (Status checked = checkMaterial(material); !checked) {
+    const MaterialDials& dials = object.dials;
+    if (dials == MaterialDials{}) throw Failure(checked.error());
+    throw Failure(
+        {fmt::format("{}, with the dials worked in: {}", checked.error().message, dialsText(dials))});
+  }
+  return material;
+}
+
+void addMaterials(py::module_& module) {
+  MaterialClass material(
+      module, "Material",
+      "What hair is made of: numbers by name, as `material[\"bend_stiffness\"]` or "
+      "`material.bend_stiffness`. Names with a table in front, \"dials.hold\", \"variation.bend_stiffness\", "
+      "\"profile.bend_stiffness\", have brackets only. Material.parameters() lists all with units and "
+      "ranges. Numbers of unit w are multiples of a strand's own weight.\n\n"
+      "Dials are worked in where the material is used.");
+  addMaterialSources(material);
+  addMaterialFile(material);
+  addMaterialNumbers(material);
   material.attr("__hash__") = py::none();  // it changes
   addParameters(material);
 }

@@ -128,45 +128,35 @@ struct MotionMeasureObject {
   MotionMeasure measure;
 };
 
-void addMotionMeasure(py::module_& module) {
-  py::class_<MotionMeasureObject>(
-      module, "MotionMeasure",
-      "Hair in motion: how it looks at the end and at its worst, how fast it bounces, when it comes to rest. "
-      "Is fed every frame, then asked.")
-      .def(py::init([](const GroomHandle& groom, double fps, const py::object& up, double lineDensity) {
-             if (!(fps > 0) || !std::isfinite(fps))
-               throw py::value_error(fmt::format("fps must be above 0, got {}", fps));
-             if (!(lineDensity > 0) || !std::isfinite(lineDensity))
-               throw py::value_error(fmt::format("line_density must be above 0, got {}", lineDensity));
-             const MotionOptions options{.framesPerSecond = fps, .up = upOf(up), .lineDensity = lineDensity};
-             return MotionMeasureObject{groom, valueOf(MotionMeasure::make(groom->groom(), options))};
-           }),
-           py::arg("groom").none(false), py::kw_only(), py::arg("fps") = 24.0,
-           py::arg("up") = py::make_tuple(0, 1, 0), py::arg("line_density") = Material{}.lineDensity,
-           "groom: at rest. fps: of the frames that will come; up: against gravity; line_density: of the "
-           "material, for energies [kg/m].")
-      .def(
-          "add_frame",
-          [](MotionMeasureObject& self, const py::object& points, const py::object& headRotation,
-             const py::object& velocities, const std::optional<double>& metresPerUnit) {
-            const std::size_t count = self.groom->particleCount();
-            const PointsIn in(points, "points", count);
-            const double unit = unitOf(metresPerUnit, *self.groom);
-            const auto rotation = headRotationOf(headRotation);
-            demandFinite(in.points(), "points");
-            if (velocities.is_none()) {
-              demand(self.measure.addFrame(in.points(), unit, rotation));
-            } else {
-              const PointsIn v(velocities, "velocities", count);
-              demandFinite(v.points(), "velocities");
-              demand(self.measure.addFrame(in.points(), unit, rotation, v.points()));
-            }
-          },
-          py::arg("points"), py::kw_only(), py::arg("head_rotation") = py::none(),
-          py::arg("velocities") = py::none(), py::arg("metres_per_unit") = py::none(),
-          "points: (particles, 3) float32 in the groom's unit, or in metres_per_unit: 1 for positions(). "
-          "head_rotation: against the groom, a Pose or a quaternion; None: fitted to the roots. velocities: "
-          "(particles, 3) float32 [m/s], if they are known.")
+using MotionMeasureClass = py::class_<MotionMeasureObject>;
+
+void addMotionFrames(MotionMeasureClass& motion) {
+  motion.def(
+      "add_frame",
+      [](MotionMeasureObject& self, const py::object& points, const py::object& headRotation,
+         const py::object& velocities, const std::optional<double>& metresPerUnit) {
+        const std::size_t count = self.groom->particleCount();
+        const PointsIn in(points, "points", count);
+        const double unit = unitOf(metresPerUnit, *self.groom);
+        const auto rotation = headRotationOf(headRotation);
+        demandFinite(in.points(), "points");
+        if (velocities.is_none()) {
+          demand(self.measure.addFrame(in.points(), unit, rotation));
+        } else {
+          const PointsIn v(velocities, "velocities", count);
+          demandFinite(v.points(), "velocities");
+          demand(self.measure.addFrame(in.points(), unit, rotation, v.points()));
+        }
+      },
+      py::arg("points"), py::kw_only(), py::arg("head_rotation") = py::none(),
+      py::arg("velocities") = py::none(), py::arg("metres_per_unit") = py::none(),
+      "points: (particles, 3) float32 in the groom's unit, or in metres_per_unit: 1 for positions(). "
+      "head_rotation: against the groom, a Pose or a quaternion; None: fitted to the roots. velocities: "
+      "(particles, 3) float32 [m/s], if they are known.");
+}
+
+void addMotionNumbers(MotionMeasureClass& motion) {
+  motion
       .def(
           "report",
           [](const MotionMeasureObject& self) {
@@ -199,6 +189,28 @@ void addMotionMeasure(py::module_& module) {
                                self.groom->groom().strandCount(), self.measure.frameCount());
           },
           "What it is, in a line.");
+}
+
+void addMotionMeasure(py::module_& module) {
+  MotionMeasureClass motion(
+      module, "MotionMeasure",
+      "Hair in motion: how it looks at the end and at its worst, how fast it bounces, when it comes to rest. "
+      "Is fed every frame, then asked.");
+  motion.def(py::init([](const GroomHandle& groom, double fps, const py::object& up, double lineDensity) {
+               if (!(fps > 0) || !std::isfinite(fps))
+                 throw py::value_error(fmt::format("fps must be above 0, got {}", fps));
+               if (!(lineDensity > 0) || !std::isfinite(lineDensity))
+                 throw py::value_error(fmt::format("line_density must be above 0, got {}", lineDensity));
+               const MotionOptions options{
+                   .framesPerSecond = fps, .up = upOf(up), .lineDensity = lineDensity};
+               return MotionMeasureObject{groom, valueOf(MotionMeasure::make(groom->groom(), options))};
+             }),
+             py::arg("groom").none(false), py::kw_only(), py::arg("fps") = 24.0,
+             py::arg("up") = py::make_tuple(0, 1, 0), py::arg("line_density") = Material{}.lineDensity,
+             "groom: at rest. fps: of the frames that will come; up: against gravity; line_density: of the "
+             "material, for energies [kg/m].");
+  addMotionFrames(motion);
+  addMotionNumbers(motion);
 }
 
 struct ContactWatchObject {

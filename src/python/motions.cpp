@@ -110,9 +110,12 @@ void addPose(py::module_& module) {
       .attr("__hash__") = py::none();
 }
 
-MotionObject makeMotion(const std::string& kind, const py::object& up, const py::object& axis,
-                        const py::object& amplitude, const py::object& frequency,
-                        const py::object& easeSeconds, const py::object& untilSeconds,
+// None: the kind's own.
+struct MotionNumbers {
+  py::object axis, amplitude, frequency, easeSeconds, untilSeconds;
+};
+
+MotionObject makeMotion(const std::string& kind, const py::object& up, const MotionNumbers& numbers,
                         const py::object& start) {
   auto named = motionByName(kind, vectorOf(up, "up"));
   if (!named) {
@@ -121,8 +124,8 @@ MotionObject makeMotion(const std::string& kind, const py::object& up, const py:
                           (isFile ? "; Motion.load reads files" : ""));
   }
   Motion motion = *named;
-  if (!axis.is_none()) {
-    const Vec3d given = vectorOf(axis, "axis");
+  if (!numbers.axis.is_none()) {
+    const Vec3d given = vectorOf(numbers.axis, "axis");
     if (!(length(given) > 0)) throw py::value_error("axis must have a length above 0");
     motion.axis = normalizedOr(given, motion.axis);
   }
@@ -134,10 +137,10 @@ MotionObject makeMotion(const std::string& kind, const py::object& up, const py:
                                         std::isfinite(low) ? fmt::format(" from {} up", low) : "", given));
     number = given;
   };
-  set(amplitude, "amplitude", -std::numeric_limits<double>::infinity(), motion.amplitude);
-  set(frequency, "frequency", 0, motion.frequency);
-  set(easeSeconds, "ease_seconds", 0, motion.easeSeconds);
-  set(untilSeconds, "until_seconds", 0, motion.untilSeconds);
+  set(numbers.amplitude, "amplitude", -std::numeric_limits<double>::infinity(), motion.amplitude);
+  set(numbers.frequency, "frequency", 0, motion.frequency);
+  set(numbers.easeSeconds, "ease_seconds", 0, motion.easeSeconds);
+  set(numbers.untilSeconds, "until_seconds", 0, motion.untilSeconds);
   motion.start = vectorOf(start, "start");
   return {motion};
 }
@@ -173,23 +176,21 @@ MotionObject keyframeMotion(const py::object& poses, const py::object& times, do
       Motion{.kind = MotionKind::keyframes, .keyframes = std::make_shared<const Keyframes>(std::move(keys))}};
 }
 
-MotionObject loadMotion(const std::filesystem::path& path, const std::string& joint,
-                        std::optional<double> metresPerUnit, int skipFrames, const std::string& animation,
-                        const std::string& up, const std::string& fileUp) {
-  if (motionFileKind(path.string()) == MotionFileKind::none)
-    throw py::value_error(noMotionFile(path).message);
-  if (metresPerUnit && !(*metresPerUnit > 0 && std::isfinite(*metresPerUnit)))
-    throw py::value_error(fmt::format("metres_per_unit must be above 0, got {}", *metresPerUnit));
-  if (skipFrames < 0) throw py::value_error(fmt::format("skip_frames must be 0 or more, got {}", skipFrames));
+// What is up in the file is fileUp; empty: what the file's kind says.
+MotionObject loadMotion(MotionFileChoice choice, const std::string& up, const std::string& fileUp) {
+  if (motionFileKind(choice.path.string()) == MotionFileKind::none)
+    throw py::value_error(noMotionFile(choice.path).message);
+  if (choice.metresPerUnit && !(*choice.metresPerUnit > 0 && std::isfinite(*choice.metresPerUnit)))
+    throw py::value_error(fmt::format("metres_per_unit must be above 0, got {}", *choice.metresPerUnit));
+  if (choice.skippedFrames < 0)
+    throw py::value_error(fmt::format("skip_frames must be 0 or more, got {}", choice.skippedFrames));
   if (up != "Y" && up != "Z") throw py::value_error(unknownName("up axis", up, {"Y", "Z"}));
-  const auto axis = fileAxisNamed(fileUp);
-  if (!fileUp.empty() && !axis)
+  choice.up = fileAxisNamed(fileUp);
+  if (!fileUp.empty() && !choice.up)
     throw py::value_error(unknownName("up axis of a file", fileUp, namesIn(kFileAxisNames)));
   MotionObject loaded;
   withoutGil([&] {
-    loaded.motion = valueOf(
-        inWords(kMotionWords, readMotionFile({path, joint, metresPerUnit, skipFrames, animation, axis, {}},
-                                             up == "Z", loaded.warnings)));
+    loaded.motion = valueOf(inWords(kMotionWords, readMotionFile(choice, up == "Z", loaded.warnings)));
     loaded.warnings = inWords(kMotionWords, std::move(loaded.warnings));
   });
   return loaded;
@@ -209,17 +210,31 @@ py::object motionFramePoses(const MotionObject& self, int frame, const Settings&
   return arrayOf(poses);
 }
 
-void addMotion(py::module_& module) {
-  py::class_<MotionObject>(module, "Motion", "The way a head moves: a pose at any time. Constant.")
-      .def(py::init(&makeMotion), py::arg("kind") = "still", py::kw_only(),
-           py::arg("up") = py::make_tuple(0, 1, 0), py::arg("axis") = py::none(),
-           py::arg("amplitude") = py::none(), py::arg("frequency") = py::none(),
-           py::arg("ease_seconds") = py::none(), py::arg("until_seconds") = py::none(),
-           py::arg("start") = py::make_tuple(0, 0, 0),
-           "One of kinds(), for a head whose up axis is `up`; what is None is the kind's own.\n\n"
-           "axis: of travel or turning; amplitude: [m], or of kinds that turn [rad], spin [rad/s], glide "
-           "[m/s]; frequency [Hz]; ease_seconds: in which it grows from 0; until_seconds: when it is over; "
-           "start: added to all positions [m].")
+using MotionClass = py::class_<MotionObject>;
+
+// The ways to make one.
+void addMotionSources(MotionClass& motion) {
+  motion
+      .def(
+          py::init([](const std::string& kind, const py::object& up, const py::object& axis,
+                      const py::object& amplitude, const py::object& frequency, const py::object& easeSeconds,
+                      const py::object& untilSeconds, const py::object& start) {
+            return makeMotion(kind, up,
+                              {.axis = axis,
+                               .amplitude = amplitude,
+                               .frequency = frequency,
+                               .easeSeconds = easeSeconds,
+                               .untilSeconds = untilSeconds},
+                              start);
+          }),
+          py::arg("kind") = "still", py::kw_only(), py::arg("up") = py::make_tuple(0, 1, 0),
+          py::arg("axis") = py::none(), py::arg("amplitude") = py::none(), py::arg("frequency") = py::none(),
+          py::arg("ease_seconds") = py::none(), py::arg("until_seconds") = py::none(),
+          py::arg("start") = py::make_tuple(0, 0, 0),
+          "One of kinds(), for a head whose up axis is `up`; what is None is the kind's own.\n\n"
+          "axis: of travel or turning; amplitude: [m], or of kinds that turn [rad], spin [rad/s], glide "
+          "[m/s]; frequency [Hz]; ease_seconds: in which it grows from 0; until_seconds: when it is over; "
+          "start: added to all positions [m].")
       .def_static(
           "kinds", [] { return namesIn(motionNames()); }, "The names of built-in motions: a list.")
       .def_static(
@@ -230,16 +245,28 @@ void addMotion(py::module_& module) {
           "[s], rising; None: seconds_per_key apart, from 0 on. interpolation: \"cubic\" or \"linear\". "
           "rests_at_ends: the head stands still before the first key.")
       .def_static(
-          "load", &loadMotion, py::arg("path"), py::kw_only(), py::arg("joint") = "Head",
-          py::arg("metres_per_unit") = py::none(), py::arg("skip_frames") = 0, py::arg("animation") = "",
-          py::arg("up") = "Y", py::arg("file_up") = "",
+          "load",
+          [](const std::filesystem::path& path, const std::string& joint, std::optional<double> metresPerUnit,
+             int skipFrames, const std::string& animation, const std::string& up, const std::string& fileUp) {
+            return loadMotion({.path = path,
+                               .joint = joint,
+                               .metresPerUnit = metresPerUnit,
+                               .skippedFrames = skipFrames,
+                               .animation = animation},
+                              up, fileUp);
+          },
+          py::arg("path"), py::kw_only(), py::arg("joint") = "Head", py::arg("metres_per_unit") = py::none(),
+          py::arg("skip_frames") = 0, py::arg("animation") = "", py::arg("up") = "Y", py::arg("file_up") = "",
           "The way of a joint of a .bvh file or of a node of a .gltf, .glb or .vrm file. metres_per_unit: "
           "None: of a .bvh so that its person is 1.7 m tall, of glTF 1. file_up: the file's up axis, one of "
           "Y, Z, X, -Y, -Z, -X; \"\": of a .bvh the axis along which its person stands, of glTF Y. "
           "skip_frames: of a .bvh, at the start; animation: of glTF, a name or number, else the first; up: "
           "of the head's world, \"Y\" or \"Z\". ringlet.Error names the joints where there is none of that "
-          "name.")
-      .def("pose_at", &poseAt, py::arg("seconds"), "The Pose at a time [s], before 0 too.")
+          "name.");
+}
+
+void addMotionPoses(MotionClass& motion) {
+  motion.def("pose_at", &poseAt, py::arg("seconds"), "The Pose at a time [s], before 0 too.")
       .def(
           "frame_poses", &motionFramePoses, py::arg("frame"), py::arg("settings"),
           "(steps, 8): where the head is at the end of each step of a frame, 0 the first, as Hair.step takes "
@@ -264,6 +291,12 @@ void addMotion(py::module_& module) {
                                keys ? fmt::format(", {} s", keys->seconds()) : "");
           },
           "What it is, in a line.");
+}
+
+void addMotion(py::module_& module) {
+  MotionClass motion(module, "Motion", "The way a head moves: a pose at any time. Constant.");
+  addMotionSources(motion);
+  addMotionPoses(motion);
 }
 
 }  // namespace

@@ -149,11 +149,10 @@ py::tuple sceneFramePoses(const SceneObject& self, int frame) {
   return py::make_tuple(arrayOf(now.heads), given(now.bodies), given(now.roots));
 }
 
-}  // namespace
+using SceneClass = py::class_<SceneObject>;
 
-void addScenes(py::module_& module) {
-  py::class_<SceneObject> scene(
-      module, "Scene", "All that a run starts from: groom, material, settings, motion, bodies. Constant.");
+// The ways to make one.
+void addSceneSources(SceneClass& scene) {
   scene
       .def_static(
           "load", &loadSceneFile, py::arg("path"), py::kw_only(), py::arg("changes") = py::dict(),
@@ -193,8 +192,12 @@ void addScenes(py::module_& module) {
             for (const std::string& name : sceneNames()) names[name.c_str()] = sceneSummary(name);
             return names;
           },
-          "The built-in scenes by name, with what each shows: a dict.")
-      .def_readonly("name", &SceneObject::name, "The built-in scene's, or the file's without its ending.")
+          "The built-in scenes by name, with what each shows: a dict.");
+}
+
+// What is in it.
+void addSceneParts(SceneClass& scene) {
+  scene.def_readonly("name", &SceneObject::name, "The built-in scene's, or the file's without its ending.")
       .def_readonly("summary", &SceneObject::summary, "What a built-in scene shows.")
       .def_readonly("groom", &SceneObject::groom, "The Groom, placed in the head's frame.")
       .def_property_readonly(
@@ -230,7 +233,12 @@ void addScenes(py::module_& module) {
           "How many frames a run has, unless it is told.")
       .def_property_readonly(
           "warnings", [](const SceneObject& s) { return s.loaded.warnings; },
-          "What one should know of it: a list of sentences.")
+          "What one should know of it: a list of sentences.");
+}
+
+// Its hair, frame by frame.
+void addSceneFrames(SceneClass& scene) {
+  scene
       .def("frame_poses", &sceneFramePoses, py::arg("frame"),
            "Where everything is at the end of each step of a frame, 0 the first: (head, body_poses, "
            "root_poses), as Hair.step takes them; None where there are none.")
@@ -252,6 +260,16 @@ void addScenes(py::module_& module) {
                                s.groom->groom().strandCount(), s.loaded.frameCount);
           },
           "What it is, in a line.");
+}
+
+}  // namespace
+
+void addScenes(py::module_& module) {
+  SceneClass scene(module, "Scene",
+                   "All that a run starts from: groom, material, settings, motion, bodies. Constant.");
+  addSceneSources(scene);
+  addSceneParts(scene);
+  addSceneFrames(scene);
   addRuns(module, scene);
 }
 

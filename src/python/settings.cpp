@@ -264,20 +264,11 @@ void addTable(py::module_& module, const char* name, const char* doc) {
   addAttributes(table);
 }
 
-void addSettingsClass(py::module_& module) {
-  py::class_<Settings> settings(
-      module, "Settings",
-      "How hair is stepped: settings by name, as `settings.gravity`, `settings.contacts.friction` or "
-      "`settings[\"contacts.friction\"]`. Settings.fields() lists all with units and ranges.");
+using SettingsClass = py::class_<Settings>;
+
+// What is not a plain number.
+void addSettingsGroups(SettingsClass& settings) {
   settings
-      .def(py::init([](const py::kwargs& named) {
-             Settings made;
-             setAll(made, named);
-             return made;
-           }),
-           "The default, but for these by name; contacts, air and goal take a dict: "
-           "Settings(steps_per_frame=4, air={\"on\": True}). TypeError for a name that there is not, "
-           "ValueError for a number out of its range.")
       .def_property(
           "integrator",
           [](const Settings& self) { return kIntegratorNames[static_cast<int>(self.integrator)]; },
@@ -298,8 +289,12 @@ void addSettingsClass(py::module_& module) {
           [](Settings& self, const py::object& value) { setTable(self.goal, value, kGoal); },
           py::return_value_policy::reference_internal,
           "Whether and how hair is pulled to the groom: GoalSettings, part of these settings. Takes others, "
-          "or a dict.")
-      .def_property_readonly("step_seconds", &Settings::stepSeconds, "How long a step is [s].")
+          "or a dict.");
+}
+
+// Every setting by name.
+void addSettingsKeys(SettingsClass& settings) {
+  settings.def_property_readonly("step_seconds", &Settings::stepSeconds, "How long a step is [s].")
       .def_static(
           "fields", &listFields,
           "Every setting: a list of dicts of key, unit, effect, type, default, low and high (None: no "
@@ -327,6 +322,23 @@ void addSettingsClass(py::module_& module) {
           [](const Settings& self, const std::string& key) { return getKey(self, key).has_value(); },
           py::arg("key"), "Whether there is such a setting.")
       .def("__repr__", &settingsReprOf, "The settings that are not the default.");
+}
+
+void addSettingsClass(py::module_& module) {
+  SettingsClass settings(
+      module, "Settings",
+      "How hair is stepped: settings by name, as `settings.gravity`, `settings.contacts.friction` or "
+      "`settings[\"contacts.friction\"]`. Settings.fields() lists all with units and ranges.");
+  settings.def(py::init([](const py::kwargs& named) {
+                 Settings made;
+                 setAll(made, named);
+                 return made;
+               }),
+               "The default, but for these by name; contacts, air and goal take a dict: "
+               "Settings(steps_per_frame=4, air={\"on\": True}). TypeError for a name that there is not, "
+               "ValueError for a number out of its range.");
+  addSettingsGroups(settings);
+  addSettingsKeys(settings);
   addAttributes(settings);
 }
 
