@@ -51,7 +51,7 @@ double middle(const Loaded& loaded, int axis) {
 }
 
 TEST(BvhStance, PersonsOfAllKindsOfFilesStandUpright) {
-  for (const Convention& convention : conventions()) {
+  for (const Convention& convention : kConventions) {
     for (const bool upIsZ : {false, true}) {
       for (const Posture posture : {Posture::walks, Posture::turnsHead}) {
         SCOPED_TRACE(fmt::format("{}, {} up", convention.name, upIsZ ? "Z" : "Y"));
@@ -98,7 +98,7 @@ TEST(BvhStance, TheHeightIsOfThePersonWhateverItDoes) {
       {"walks", Posture::walks}, {"has its arms up", Posture::armsUp},
       {"sits", Posture::sits},   {"lies", Posture::lies},
       {"jumps", Posture::jumps}, {"kicks", Posture::kicks}};
-  for (const Convention& convention : conventions()) {
+  for (const Convention& convention : kConventions) {
     for (const auto& [name, posture] : postures) {
       SCOPED_TRACE(fmt::format("{} {}", convention.name, name));
       const auto file = parseBvh(bvhOf(convention, posture));
@@ -116,7 +116,7 @@ TEST(BvhStance, TheHeightIsOfThePersonWhateverItDoes) {
 
 // Whoever lies in all frames may as well stand in a file of another axis: both are said, with the option.
 TEST(BvhStance, WhoLiesIsNotTakenForAnotherAxisUnsaid) {
-  for (const Convention& convention : conventions()) {
+  for (const Convention& convention : kConventions) {
     if (convention.up != 'Y') continue;
     SCOPED_TRACE(convention.name);
     const Loaded person = loaded(convention, Posture::lies, false);
@@ -136,7 +136,7 @@ TEST(BvhStance, WhoLiesIsNotTakenForAnotherAxisUnsaid) {
 
 // Who lies first and stands later is upright when it stands, whatever axis it lay along.
 TEST(BvhStance, WhoGetsUpStandsAlongTheUpAxis) {
-  for (const Convention& convention : conventions()) {
+  for (const Convention& convention : kConventions) {
     SCOPED_TRACE(convention.name);
     const auto file = parseBvh(bvhOf(convention, Posture::getsUp));
     ASSERT_TRUE(file) << file.error().message;
@@ -164,7 +164,7 @@ TEST(BvhStance, AStatedAxisIsTakenUnasked) {
         EXPECT_LT(length(rotate(there, turn(v)) - turn(rotate(rotation, v))), 1e-12) << name;
     }
     const Loaded person =
-        loaded(conventions()[1], Posture::turnsHead, false, {.path = {}, .metresPerUnit = {}, .up = axis});
+        loaded(kConventions[1], Posture::turnsHead, false, {.path = {}, .metresPerUnit = {}, .up = axis});
     EXPECT_EQ(person.warnings.find("motion-up"), std::string::npos) << person.warnings;
     const double height = middle(person, 1);
     EXPECT_NEAR(height,
@@ -237,7 +237,7 @@ TEST(BvhStance, SkeletonsWithoutAPersonHaveAUnit) {
 TEST(BvhStance, AMotionNeedsTwoFrames) {
   const auto path = scratchFolder("bvh_stance_frames") / "person.bvh";
   const auto errorOf = [&](int held, int excess, int skipped) {
-    Convention convention = conventions()[1];
+    Convention convention = kConventions[1];
     convention.excessFrames = excess;
     std::ofstream(path) << bvhOf(convention, Posture::turnsHead, held);
     std::vector<std::string> warnings;
@@ -256,8 +256,8 @@ TEST(BvhStance, AMotionNeedsTwoFrames) {
 TEST(BvhStance, AHeadOfAnyNameIsAHead) {
   for (const char* name : {"Kopf", "j4", "testa"}) {
     for (const std::size_t which : {1u, 10u}) {  // Y up, Z up
-      SCOPED_TRACE(fmt::format("{} {}", name, conventions()[which].name));
-      Convention convention = conventions()[which];
+      SCOPED_TRACE(fmt::format("{} {}", name, kConventions[which].name));
+      Convention convention = kConventions[which];
       convention.names = "plain";
       std::string text = bvhOf(convention, Posture::turnsHead);
       const std::pair<std::string, std::string> words[] = {{"HeadTop", "x1"}, {"Head", name}, {"Neck", "x2"}};
@@ -284,7 +284,7 @@ TEST(BvhStance, AHeadOfAnyNameIsAHead) {
 // A stated unit in which the person is a giant, or a doll.
 TEST(BvhStance, AStatedUnitIsDoubted) {
   const auto warningsOf = [](double unit) {
-    return loaded(conventions()[1], Posture::turnsHead, false, {.path = {}, .metresPerUnit = unit}).warnings;
+    return loaded(kConventions[1], Posture::turnsHead, false, {.path = {}, .metresPerUnit = unit}).warnings;
   };
   EXPECT_EQ(warningsOf(0.01), "");
   EXPECT_NE(warningsOf(1).find("180 m tall with units of 1 m, which no person is"), std::string::npos)

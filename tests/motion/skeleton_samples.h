@@ -130,6 +130,8 @@ inline std::array<double, 3> anglesOf(Quatd rotation, const std::string& order) 
           std::atan2(-sign * entry(i, j), entry(i, i)) * degrees};
 }
 
+inline std::string bvhNumbers(Vec3d v) { return fmt::format("{:.9g} {:.9g} {:.9g}", v.x, v.y, v.z); }
+
 /// From a world of Y up into the file's.
 inline Quatd intoFile(char up) {
   return up == 'Z'   ? turnAbout({1, 0, 0}, 90)
@@ -171,7 +173,6 @@ inline std::string bvhOf(const Convention& convention, Posture posture, int fram
   const std::string angles = fmt::format("{}rotation {}rotation {}rotation", convention.order[0],
                                          convention.order[1], convention.order[2]);
   const std::string positions = "Xposition Yposition Zposition";
-  const auto numbers = [](Vec3d v) { return fmt::format("{:.9g} {:.9g} {:.9g}", v.x, v.y, v.z); };
 
   std::string text = "HIERARCHY\n";
   if (convention.hasReference)
@@ -183,7 +184,7 @@ inline std::string bvhOf(const Convention& convention, Posture posture, int fram
     const bool isFirst = j == 0 && !convention.hasReference;
     const bool hasPositions = j == 0 || convention.hasAllPositions;
     text += fmt::format("{} {}\n{{\nOFFSET {}\nCHANNELS {}{}\n", isFirst ? "ROOT" : "JOINT", joints[j].name,
-                        numbers(convention.hasOffsets ? offsetOf(j) : Vec3d{}),
+                        bvhNumbers(convention.hasOffsets ? offsetOf(j) : Vec3d{}),
                         hasPositions ? "6 " + positions + " " : "3 ", angles);
     bool isEnd = true;
     for (std::size_t c = j + 1; c < joints.size(); ++c) {
@@ -209,9 +210,9 @@ inline std::string bvhOf(const Convention& convention, Posture posture, int fram
       const auto global = [&](std::size_t k) { return world * pose.turns[k] * world.conjugate() * axes[k]; };
       const Quatd local = joints[j].parent < 0 ? global(j) : global(parentOf(j)).conjugate() * global(j);
       if (j == 0 || convention.hasAllPositions)
-        line += numbers(j == 0 ? rotate(world, pose.hips) * scale : offsetOf(j)) + " ";
+        line += bvhNumbers(j == 0 ? rotate(world, pose.hips) * scale : offsetOf(j)) + " ";
       const auto degrees = anglesOf(normalized(local), convention.order);
-      line += numbers({degrees[0], degrees[1], degrees[2]}) + " ";
+      line += bvhNumbers({degrees[0], degrees[1], degrees[2]}) + " ";
     }
     text += line + "\n";
   }
@@ -225,93 +226,90 @@ inline std::string headOf(const Convention& convention) {
 }
 
 /// Kinds of files.
-inline const std::vector<Convention>& conventions() {
-  static const std::vector<Convention> all{
-      {.name = "inches over 0.45, a T-pose first",
-       .unitsPerMetre = 0.45 / 0.0254,
-       .order = "ZYX",
-       .hasTPose = true},
-      {.name = "centimetres, names with a namespace", .order = "XYZ", .names = "mixamo"},
-      {.name = "centimetres, a frame more than stated", .order = "YXZ", .excessFrames = 1},
-      {.name = "centimetres, positions in all joints", .order = "YXZ", .hasAllPositions = true},
-      {.name = "centimetres, positions only, no offsets", .hasAllPositions = true, .hasOffsets = false},
-      {.name = "centimetres, a root that stays", .hasReference = true},
-      {.name = "inches, bones along X",
-       .unitsPerMetre = 1 / 0.0254,
-       .axes = BoneAxes::alongX,
-       .order = "ZXY",
-       .names = "biped"},
-      {.name = "centimetres, bones along X, Z up", .up = 'Z', .axes = BoneAxes::alongX, .names = "biped"},
-      {.name = "metres, Z up", .unitsPerMetre = 1, .up = 'Z', .order = "XYZ", .names = "blender"},
-      {.name = "metres, Y up", .unitsPerMetre = 1, .order = "XYZ", .names = "blender"},
-      {.name = "millimetres, Z up", .unitsPerMetre = 1000, .up = 'Z', .order = "ZXY"},
-      {.name = "millimetres, Y up", .unitsPerMetre = 1000, .order = "ZXY"},
-      {.name = "metres, made Y up, the root turned to Z up",
-       .unitsPerMetre = 1,
-       .up = 'Z',
-       .axes = BoneAxes::yUp},
-      {.name = "centimetres, X up", .up = 'X', .names = "mixamo"},
-      {.name = "metres, Y down as cameras see", .unitsPerMetre = 1, .up = 'y', .axes = BoneAxes::yUp},
-      {.name = "CMU, inches over 0.45, a T-pose first",
-       .unitsPerMetre = 0.45 / 0.0254,
-       .order = "ZYX",
-       .names = "cmu",
-       .hasTPose = true},
-      {.name = "CMU, inches", .unitsPerMetre = 1 / 0.0254, .order = "ZXY", .names = "cmu"},
-      {.name = "Xsens, centimetres", .order = "YXZ", .names = "xsens"},
-      {.name = "Xsens, metres, Z up", .unitsPerMetre = 1, .up = 'Z', .order = "YXZ", .names = "xsens"},
-      {.name = "Perception Neuron, positions, a frame more than stated",
-       .order = "YXZ",
-       .names = "neuron",
-       .hasAllPositions = true,
-       .excessFrames = 1},
-      {.name = "Perception Neuron, inches, positions only",
-       .unitsPerMetre = 1 / 0.0254,
-       .order = "YXZ",
-       .names = "neuron",
-       .hasAllPositions = true,
-       .hasOffsets = false},
-      {.name = "Unreal, centimetres, bones along X, Z up",
-       .up = 'Z',
-       .axes = BoneAxes::alongX,
-       .order = "XYZ",
-       .names = "unreal",
-       .hasReference = true},
-      {.name = "Unreal, inches, bones along X",
-       .unitsPerMetre = 1 / 0.0254,
-       .axes = BoneAxes::alongX,
-       .order = "XYZ",
-       .names = "unreal",
-       .hasReference = true},
-      {.name = "Daz, centimetres", .order = "YZX", .names = "daz"},
-      {.name = "Daz, inches, made Y up, the root turned to Z up",
-       .unitsPerMetre = 1 / 0.0254,
-       .up = 'Z',
-       .axes = BoneAxes::yUp,
-       .order = "XYZ",
-       .names = "daz"},
-      {.name = "Poser, 2.62 m", .unitsPerMetre = 1 / 2.62, .names = "poser"},
-      {.name = "Poser, inches", .unitsPerMetre = 1 / 0.0254, .names = "poser"},
-      {.name = "Rigify, metres, Z up, a root without channels",
-       .unitsPerMetre = 1,
-       .up = 'Z',
-       .order = "XYZ",
-       .names = "rigify",
-       .hasReference = true,
-       .hasReferenceChannels = false},
-      {.name = "Rigify, centimetres, Y up", .order = "XYZ", .names = "rigify"},
-      {.name = "SMPL, metres, a root that stays",
-       .unitsPerMetre = 1,
-       .order = "ZYX",
-       .names = "smpl",
-       .hasReference = true},
-      {.name = "SMPL, metres, Y down as cameras see",
-       .unitsPerMetre = 1,
-       .up = 'y',
-       .axes = BoneAxes::yUp,
-       .order = "ZYX",
-       .names = "smpl"}};
-  return all;
-}
+inline const std::vector<Convention> kConventions{
+    {.name = "inches over 0.45, a T-pose first",
+     .unitsPerMetre = 0.45 / 0.0254,
+     .order = "ZYX",
+     .hasTPose = true},
+    {.name = "centimetres, names with a namespace", .order = "XYZ", .names = "mixamo"},
+    {.name = "centimetres, a frame more than stated", .order = "YXZ", .excessFrames = 1},
+    {.name = "centimetres, positions in all joints", .order = "YXZ", .hasAllPositions = true},
+    {.name = "centimetres, positions only, no offsets", .hasAllPositions = true, .hasOffsets = false},
+    {.name = "centimetres, a root that stays", .hasReference = true},
+    {.name = "inches, bones along X",
+     .unitsPerMetre = 1 / 0.0254,
+     .axes = BoneAxes::alongX,
+     .order = "ZXY",
+     .names = "biped"},
+    {.name = "centimetres, bones along X, Z up", .up = 'Z', .axes = BoneAxes::alongX, .names = "biped"},
+    {.name = "metres, Z up", .unitsPerMetre = 1, .up = 'Z', .order = "XYZ", .names = "blender"},
+    {.name = "metres, Y up", .unitsPerMetre = 1, .order = "XYZ", .names = "blender"},
+    {.name = "millimetres, Z up", .unitsPerMetre = 1000, .up = 'Z', .order = "ZXY"},
+    {.name = "millimetres, Y up", .unitsPerMetre = 1000, .order = "ZXY"},
+    {.name = "metres, made Y up, the root turned to Z up",
+     .unitsPerMetre = 1,
+     .up = 'Z',
+     .axes = BoneAxes::yUp},
+    {.name = "centimetres, X up", .up = 'X', .names = "mixamo"},
+    {.name = "metres, Y down as cameras see", .unitsPerMetre = 1, .up = 'y', .axes = BoneAxes::yUp},
+    {.name = "CMU, inches over 0.45, a T-pose first",
+     .unitsPerMetre = 0.45 / 0.0254,
+     .order = "ZYX",
+     .names = "cmu",
+     .hasTPose = true},
+    {.name = "CMU, inches", .unitsPerMetre = 1 / 0.0254, .order = "ZXY", .names = "cmu"},
+    {.name = "Xsens, centimetres", .order = "YXZ", .names = "xsens"},
+    {.name = "Xsens, metres, Z up", .unitsPerMetre = 1, .up = 'Z', .order = "YXZ", .names = "xsens"},
+    {.name = "Perception Neuron, positions, a frame more than stated",
+     .order = "YXZ",
+     .names = "neuron",
+     .hasAllPositions = true,
+     .excessFrames = 1},
+    {.name = "Perception Neuron, inches, positions only",
+     .unitsPerMetre = 1 / 0.0254,
+     .order = "YXZ",
+     .names = "neuron",
+     .hasAllPositions = true,
+     .hasOffsets = false},
+    {.name = "Unreal, centimetres, bones along X, Z up",
+     .up = 'Z',
+     .axes = BoneAxes::alongX,
+     .order = "XYZ",
+     .names = "unreal",
+     .hasReference = true},
+    {.name = "Unreal, inches, bones along X",
+     .unitsPerMetre = 1 / 0.0254,
+     .axes = BoneAxes::alongX,
+     .order = "XYZ",
+     .names = "unreal",
+     .hasReference = true},
+    {.name = "Daz, centimetres", .order = "YZX", .names = "daz"},
+    {.name = "Daz, inches, made Y up, the root turned to Z up",
+     .unitsPerMetre = 1 / 0.0254,
+     .up = 'Z',
+     .axes = BoneAxes::yUp,
+     .order = "XYZ",
+     .names = "daz"},
+    {.name = "Poser, 2.62 m", .unitsPerMetre = 1 / 2.62, .names = "poser"},
+    {.name = "Poser, inches", .unitsPerMetre = 1 / 0.0254, .names = "poser"},
+    {.name = "Rigify, metres, Z up, a root without channels",
+     .unitsPerMetre = 1,
+     .up = 'Z',
+     .order = "XYZ",
+     .names = "rigify",
+     .hasReference = true,
+     .hasReferenceChannels = false},
+    {.name = "Rigify, centimetres, Y up", .order = "XYZ", .names = "rigify"},
+    {.name = "SMPL, metres, a root that stays",
+     .unitsPerMetre = 1,
+     .order = "ZYX",
+     .names = "smpl",
+     .hasReference = true},
+    {.name = "SMPL, metres, Y down as cameras see",
+     .unitsPerMetre = 1,
+     .up = 'y',
+     .axes = BoneAxes::yUp,
+     .order = "ZYX",
+     .names = "smpl"}};
 
 }  // namespace ringlet::test

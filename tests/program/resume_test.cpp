@@ -210,35 +210,36 @@ TEST_P(Resume, AnInterruptedRunGoesOn) {
 
 // A checkpoint knows nothing of what keys did before it: a material that came back to what it was, hair that
 // sleeps since nothing changes any more.
+const struct {
+  const char* what;
+  const char* scene;
+  int frames, killedAt;
+} kKeyedScenes[] = {{"a material came back",
+                     "[groom]\nfile = \"tuft.obj\"\n[motion]\nkind = \"shake\"\n"
+                     "[[key]]\ntime = 0.1\nmaterial.dials.weight = 1\n"
+                     "[[key]]\ntime = 0.2\nmaterial.dials.weight = 0.7\n"
+                     "[[key]]\ntime = 0.3\nmaterial.dials.weight = 1\n",
+                     24, 14},
+                    {"hair sleeps",
+                     "[groom]\nfile = \"tuft.obj\"\n[motion]\nkind = \"still\"\n"
+                     "[simulation]\npreload = 1\nsleep_speed = 0.1\n[air]\nwind = [0.1, 0, 0]\n"
+                     "[[key]]\ntime = 0.1\nair.wind = [0.1, 0, 0]\n"
+                     "[[key]]\ntime = 0.2\nair.wind = [0, 0, 0]\n",
+                     120, 90},
+                    {"hair was cut",
+                     "[groom]\nfile = \"tuft.obj\"\n[motion]\nkind = \"shake\"\npre_roll = 0.1\n"
+                     "[[cut]]\ntime = -0.05\nat = 0.7\nstrands = \"0\"\n[[cut]]\ntime = 0.15\n"
+                     "[[key]]\ntime = 0.1\nmaterial.dials.weight = 1\nmaterial.dials.hold = 1\n"
+                     "[[key]]\ntime = 0.2\nmaterial.dials.weight = 0.7\nmaterial.dials.hold = 0.7\n"
+                     "[[key]]\ntime = 0.3\nmaterial.dials.weight = 1\nmaterial.dials.hold = 1\n",
+                     24, 14},
+                    {"hair with contacts was cut",
+                     "[groom]\nfile = \"tuft.obj\"\n[motion]\nkind = \"shake\"\n[contacts]\n"
+                     "method = \"explicit\"\ntaper = \"time\"\n[[cut]]\ntime = 0.15\n",
+                     24, 14}};
+
 TEST_P(Resume, WhatKeysDidBeforeIsDoneAgain) {
-  struct Case {
-    const char* what;
-    const char* scene;
-    int frames, killedAt;
-  };
-  for (const Case& c : {Case{"a material came back",
-                             "[groom]\nfile = \"tuft.obj\"\n[motion]\nkind = \"shake\"\n"
-                             "[[key]]\ntime = 0.1\nmaterial.dials.weight = 1\n"
-                             "[[key]]\ntime = 0.2\nmaterial.dials.weight = 0.7\n"
-                             "[[key]]\ntime = 0.3\nmaterial.dials.weight = 1\n",
-                             24, 14},
-                        Case{"hair sleeps",
-                             "[groom]\nfile = \"tuft.obj\"\n[motion]\nkind = \"still\"\n"
-                             "[simulation]\npreload = 1\nsleep_speed = 0.1\n[air]\nwind = [0.1, 0, 0]\n"
-                             "[[key]]\ntime = 0.1\nair.wind = [0.1, 0, 0]\n"
-                             "[[key]]\ntime = 0.2\nair.wind = [0, 0, 0]\n",
-                             120, 90},
-                        Case{"hair was cut",
-                             "[groom]\nfile = \"tuft.obj\"\n[motion]\nkind = \"shake\"\npre_roll = 0.1\n"
-                             "[[cut]]\ntime = -0.05\nat = 0.7\nstrands = \"0\"\n[[cut]]\ntime = 0.15\n"
-                             "[[key]]\ntime = 0.1\nmaterial.dials.weight = 1\nmaterial.dials.hold = 1\n"
-                             "[[key]]\ntime = 0.2\nmaterial.dials.weight = 0.7\nmaterial.dials.hold = 0.7\n"
-                             "[[key]]\ntime = 0.3\nmaterial.dials.weight = 1\nmaterial.dials.hold = 1\n",
-                             24, 14},
-                        Case{"hair with contacts was cut",
-                             "[groom]\nfile = \"tuft.obj\"\n[motion]\nkind = \"shake\"\n[contacts]\n"
-                             "method = \"explicit\"\ntaper = \"time\"\n[[cut]]\ntime = 0.15\n",
-                             24, 14}}) {
+  for (const auto& c : kKeyedScenes) {
     std::ofstream(folder_ / "keys.toml") << c.scene;
     const auto arguments = [&](const char* out) {
       return std::vector<std::string>{"simulate",

@@ -440,63 +440,59 @@ TEST(Scene, TheTableSaysTheNumbers) {
   EXPECT_EQ(quiet.out + quiet.err, "");
 }
 
+// Arguments of `ringlet scene` that cannot be, and what is answered.
+const struct {
+  std::vector<std::string> arguments;
+  int exitCode;
+  std::string message;
+} kMistakes[] = {
+    {{}, 2, "NAME (or --list) is required"},
+    {{"hanging_crul"}, 2, "did you mean hanging_curl?"},
+    {{"dance"}, 2, "only hanging_curl, walk_cycle, head_shake, bounce, twist_jump, release"},
+    {{"bounce", "release"}, 2, "one word too many: 'release'"},
+    {{"bounce", "--partcles", "32"}, 2, "did you mean --particles?"},
+    {{"bounce", "--particles", "1"}, 2, "--particles: must be a whole number from 2"},
+    {{"bounce", "--strands", "0"}, 2, "--strands: must be a whole number from 1"},
+    {{"bounce", "--preload", "1.5"}, 2, "--preload: must be a number from 0 to 1"},
+    {{"bounce", "--core", "offf"}, 2, "did you mean off?"},
+    {{"bounce", "--frames-on", "smooth"}, 2, "did you mean smoothed?"},
+    {{"bounce", "--steps-per-frame", "341"}, 2, "must be a whole number from 1 to 340"},
+    {{"bounce", "--seconds", "0"}, 2, "--seconds: must be a number from"},
+    {{"bounce", "--seconds", "nan"}, 2, "not 'nan'"},
+    {{"bounce", "--integrator", "papr"}, 2, "did you mean paper?"},
+    {{"bounce", "--backend", "cpu"}, 2, "only gpu, reference"},
+    {{"bounce", "--backend", "reference", "--device", "0"}, 2, "only --backend gpu has a device"},
+    {{"bounce", "--integrator", "paper", "--core", "off"}, 2, "--core: --integrator paper takes"},
+    {{"bounce", "--integrator", "paper", "--frames-on", "raw"}, 2, "--frames-on: --integrator"},
+    {{"bounce", "--integrator", "paper", "--preload", "1"}, 2, "--preload: --integrator paper"},
+    {{"two_curls", "--contacts", "yes"},
+     2,
+     "--contacts: there is no 'yes' (only off, on, auto, explicit, volume)"},
+    {{"two_curls", "--contact-radius", "0"}, 2, "--contact-radius: must be a number from 1e-06 to 1"},
+    {{"two_curls", "--prune", "0"}, 2, "whole number from 1 to 1000000, not '0', or none"},
+    {{"two_curls", "--prune", "all"}, 2, "not 'all', or none"},
+    {{"two_curls", "--prune", "none", "--drop-share", "0.5"}, 2, "--drop-share: --prune none prunes"},
+    {{"two_curls", "--contact-iterations", "0"}, 2, "must be a whole number from 1 to 1000"},
+    {{"two_curls", "--contact-friction", "11"}, 2, "must be a number from 0 to 1"},
+    {{"two_curls", "--max-neighbours", "-1"}, 2, "must be a whole number from 0"},
+    {{"bounce", "--prune", "8"}, 2, "--prune: only with --contacts on, or in a scene of hair"},
+    {{"bounce", "--integrator", "paper", "--bend-stiffness", "1"}, 2, "--bend-stiffness: --integ"},
+    {{"two_curls", "--set", "groom.scale=2"}, 2, "--set: groom.scale has no place here"},
+    {{"two_curls", "--set", "output.folder=out"}, 2, "--set: output.folder has no place here"},
+    {{"two_curls", "--set", "simulation.gravty=2"}, 2, "did you mean simulation.gravity?"},
+    {{"two_curls", "--strands", "3"}, 1, "two_curls has its two strands"},
+    {{"two_curls", "--integrator", "paper"}, 1, "contacts need jacobi"},
+    {{"--list", "bounce"}, 2, "NAME: --list only says which scenes there are"},
+    {{"--list", "-o", "out"}, 2, "--output: --list only says"},
+    {{"twist_jump", "--particles", "8"}, 1, "ringlet scene: twist_jump with 8 particles: it takes 16"},
+    {{"bounce", "--backend", "reference", "-o", "file"}, 5, "ringlet scene: bounce: "},
+    {{"bounce", "--device", "Voodoo 2"}, 1, "--backend reference"},
+};
+
 TEST(Scene, MistakesAreOneSentence) {
   const auto folder = scratchFolder("scene_mistakes");
   std::ofstream(folder / "file") << "x";
-  struct Case {
-    std::vector<std::string> arguments;
-    int exitCode;
-    std::string message;
-  };
-  for (const Case& c : {
-           Case{{}, 2, "NAME (or --list) is required"},
-           Case{{"hanging_crul"}, 2, "did you mean hanging_curl?"},
-           Case{{"dance"}, 2, "only hanging_curl, walk_cycle, head_shake, bounce, twist_jump, release"},
-           Case{{"bounce", "release"}, 2, "one word too many: 'release'"},
-           Case{{"bounce", "--partcles", "32"}, 2, "did you mean --particles?"},
-           Case{{"bounce", "--particles", "1"}, 2, "--particles: must be a whole number from 2"},
-           Case{{"bounce", "--strands", "0"}, 2, "--strands: must be a whole number from 1"},
-           Case{{"bounce", "--preload", "1.5"}, 2, "--preload: must be a number from 0 to 1"},
-           Case{{"bounce", "--core", "offf"}, 2, "did you mean off?"},
-           Case{{"bounce", "--frames-on", "smooth"}, 2, "did you mean smoothed?"},
-           Case{{"bounce", "--steps-per-frame", "341"}, 2, "must be a whole number from 1 to 340"},
-           Case{{"bounce", "--seconds", "0"}, 2, "--seconds: must be a number from"},
-           Case{{"bounce", "--seconds", "nan"}, 2, "not 'nan'"},
-           Case{{"bounce", "--integrator", "papr"}, 2, "did you mean paper?"},
-           Case{{"bounce", "--backend", "cpu"}, 2, "only gpu, reference"},
-           Case{{"bounce", "--backend", "reference", "--device", "0"}, 2, "only --backend gpu has a device"},
-           Case{{"bounce", "--integrator", "paper", "--core", "off"}, 2, "--core: --integrator paper takes"},
-           Case{{"bounce", "--integrator", "paper", "--frames-on", "raw"}, 2, "--frames-on: --integrator"},
-           Case{{"bounce", "--integrator", "paper", "--preload", "1"}, 2, "--preload: --integrator paper"},
-           Case{{"two_curls", "--contacts", "yes"},
-                2,
-                "--contacts: there is no 'yes' (only off, on, auto, explicit, volume)"},
-           Case{{"two_curls", "--contact-radius", "0"},
-                2,
-                "--contact-radius: must be a number from 1e-06 to 1"},
-           Case{{"two_curls", "--prune", "0"}, 2, "whole number from 1 to 1000000, not '0', or none"},
-           Case{{"two_curls", "--prune", "all"}, 2, "not 'all', or none"},
-           Case{{"two_curls", "--prune", "none", "--drop-share", "0.5"},
-                2,
-                "--drop-share: --prune none prunes"},
-           Case{{"two_curls", "--contact-iterations", "0"}, 2, "must be a whole number from 1 to 1000"},
-           Case{{"two_curls", "--contact-friction", "11"}, 2, "must be a number from 0 to 1"},
-           Case{{"two_curls", "--max-neighbours", "-1"}, 2, "must be a whole number from 0"},
-           Case{{"bounce", "--prune", "8"}, 2, "--prune: only with --contacts on, or in a scene of hair"},
-           Case{{"bounce", "--integrator", "paper", "--bend-stiffness", "1"}, 2, "--bend-stiffness: --integ"},
-           Case{{"two_curls", "--set", "groom.scale=2"}, 2, "--set: groom.scale has no place here"},
-           Case{{"two_curls", "--set", "output.folder=out"}, 2, "--set: output.folder has no place here"},
-           Case{{"two_curls", "--set", "simulation.gravty=2"}, 2, "did you mean simulation.gravity?"},
-           Case{{"two_curls", "--strands", "3"}, 1, "two_curls has its two strands"},
-           Case{{"two_curls", "--integrator", "paper"}, 1, "contacts need jacobi"},
-           Case{{"--list", "bounce"}, 2, "NAME: --list only says which scenes there are"},
-           Case{{"--list", "-o", "out"}, 2, "--output: --list only says"},
-           Case{{"twist_jump", "--particles", "8"},
-                1,
-                "ringlet scene: twist_jump with 8 particles: it takes 16"},
-           Case{{"bounce", "--backend", "reference", "-o", "file"}, 5, "ringlet scene: bounce: "},
-           Case{{"bounce", "--device", "Voodoo 2"}, 1, "--backend reference"},
-       }) {
+  for (const auto& c : kMistakes) {
     auto arguments = c.arguments;
     arguments.insert(arguments.begin(), "scene");
     const auto result = runProgram(folder, arguments);

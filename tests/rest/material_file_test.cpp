@@ -78,96 +78,96 @@ TEST(MaterialFile, UnusualNumbersWarn) {
 }
 
 // One line a kind of mistake: the text, and the message after "hair.toml: ".
+const struct {
+  const char *text, *message;
+} kMistakes[] = {
+    // keys
+    {"\nbend_stifness = 5", "line 2: found the unknown key 'bend_stifness'; did you mean bend_stiffness?"},
+    {"bendStiffness = 5", "line 1: found the unknown key 'bendStiffness'; did you mean bend_stiffness?"},
+    {"hold = 2", "line 1: found the unknown key 'hold'; did you mean dials.hold?"},
+    {"[dials]\n\nbend_stiffness = 2",
+     "line 3: found the unknown key 'bend_stiffness' in [dials]; did you mean bend_stiffness, which stands "
+     "above all tables? [dials] takes hold, bounce, spring_back, curl_keep, weight, root_hold, tip_hold, "
+     "wet"},
+    {"[variation]\nsead = 2",
+     "line 2: found the unknown key 'sead' in [variation]; did you mean variation.seed?"},
+    {"[profile]\nxyz = 2",
+     "line 2: found the unknown key 'xyz' in [profile]; expected bend_stiffness, bend_damping_ratio, "
+     "stretch_stiffness, stretch_damping_time, core_stiffness, core_damping_ratio, line_density"},
+    {"[dial]\nhold = 2", "line 1: found the unknown key 'dial'; did you mean dials?"},
+    // types
+    {"bend_stiffness = '5'",
+     "line 1: found the text '5' for bend_stiffness; expected a number from 0.001 to 1000000 w"},
+    {"bend_stiffness = true",
+     "line 1: found true for bend_stiffness; expected a number from 0.001 to 1000000 w"},
+    {"bend_stiffness = [5, 6]",
+     "line 1: found a list of 2 for bend_stiffness; expected a number from 0.001 to 1000000 w"},
+    {"[bend_stiffness]\nx = 5",
+     "line 1: found a table for bend_stiffness; expected a number from 0.001 to 1000000 w"},
+    {"bend_stiffness = 2020-01-01",
+     "line 1: found a date or time for bend_stiffness; expected a number from 0.001 to 1000000 w"},
+    {"core_smoothing_length = 'auto'",
+     "line 1: found the text 'auto' for core_smoothing_length; expected a number from 0 to 1000 m, or "
+     "\"rest\""},
+    {"bend_stiffness = 'rest'",
+     "line 1: found the text 'rest' for bend_stiffness; expected a number from 0.001 to 1000000 w"},
+    {"[variation]\nseed = 1.5",
+     "line 2: found the number 1.5 for variation.seed; expected a whole number from 0 to 4294967295"},
+    {"dials = 3", "line 1: found the number 3 for dials; expected a table, as in [dials]"},
+    {"[[dials]]\nhold = 1", "line 1: found a list of 1 for dials; expected a table, as in [dials]"},
+    // ranges
+    {"bend_stiffness = -1",
+     "line 1: found the number -1 for bend_stiffness; expected a number from 0.001 to 1000000 w"},
+    {"bend_stiffness = nan",
+     "line 1: found the number nan for bend_stiffness; expected a number from 0.001 to 1000000 w"},
+    {"bend_stiffness = inf",
+     "line 1: found the number inf for bend_stiffness; expected a number from 0.001 to 1000000 w"},
+    {"bend_stiffness = 9223372036854775807",
+     "line 1: found the number 9223372036854775807 for bend_stiffness; expected a number from 0.001 to "
+     "1000000 w"},
+    {"core_relaxed_share = 1.5",
+     "line 1: found the number 1.5 for core_relaxed_share; expected a number from 0 to 1"},
+    {"[dials]\nhold = 0", "line 2: found the number 0 for dials.hold; expected a number from 0.001 to 1000"},
+    {"[variation]\nbend_stiffness = 1.0",
+     "line 2: found the number 1 for variation.bend_stiffness; expected a number from 0 to 0.9"},
+    {"[variation]\nseed = -1",
+     "line 2: found the number -1 for variation.seed; expected a whole number from 0 to 4294967295"},
+    {"\n\ncore_elongation_low = 1.3",
+     "line 3: core_elongation_high is 1.1; it must be above core_elongation_low, which is 1.3, by 1e-06 or "
+     "more"},
+    // presets
+    {"preset = 'ringlets'",
+     "line 1: found the text 'ringlets' for preset; expected one of straight, wavy, loose_curl, ringlet, "
+     "coil; did you mean ringlet?"},
+    {"preset = 7",
+     "line 1: found the number 7 for preset; expected one of straight, wavy, loose_curl, ringlet, coil"},
+    // profiles
+    {"[profile]\nbend_stiffness = 2",
+     "line 2: found the number 2 for profile.bend_stiffness; expected a list of points [share of the arc "
+     "length, factor]"},
+    {"[profile]\nbend_stiffness = [0, 1]",
+     "line 2: found the number 0 for point 1 of profile.bend_stiffness; expected a list of points [share "
+     "of the arc length, factor]"},
+    {"[profile]\nbend_stiffness = [[0, 1],\n[1, 'x']]",
+     "line 3: found a list of 2 for point 2 of profile.bend_stiffness; expected a list of points [share of "
+     "the arc length, factor]"},
+    {"[profile]\nbend_stiffness = [[0, 1],\n[0, 2]]",
+     "line 3: profile.bend_stiffness: point 2 is [0, 2]; points must go from root to tip"},
+    {"[profile]\nline_density = [[0, 5000]]",
+     "line 2: profile.line_density: point 1 is [0, 5000]; its factor must be from 0.001 to 1000"},
+    // several: the topmost
+    {"line_density = 'x'\nbend_stiffness = 'y'\nabc = 1",
+     "line 1: found the text 'x' for line_density; expected a number from 1e-12 to 1000000 kg/m"},
+    {"abcdefgh.x = 1\nbend_stiffness = 'y'",
+     "line 1: found the unknown key 'abcdefgh'; expected preset, dials, variation, profile, line_density, "
+     "stretch_stiffness, stretch_damping_time, bend_stiffness, bend_damping_ratio, core_stiffness, "
+     "core_damping_ratio, core_relaxed_share, core_elongation_low, core_elongation_high, gravity_factor, "
+     "inertia_factor, "
+     "bend_smoothing_length, core_smoothing_length"},
+};
+
 TEST(MaterialFile, MistakesAreNamedWithLineAndRemedy) {
-  const struct {
-    const char *text, *message;
-  } kCases[] = {
-      // keys
-      {"\nbend_stifness = 5", "line 2: found the unknown key 'bend_stifness'; did you mean bend_stiffness?"},
-      {"bendStiffness = 5", "line 1: found the unknown key 'bendStiffness'; did you mean bend_stiffness?"},
-      {"hold = 2", "line 1: found the unknown key 'hold'; did you mean dials.hold?"},
-      {"[dials]\n\nbend_stiffness = 2",
-       "line 3: found the unknown key 'bend_stiffness' in [dials]; did you mean bend_stiffness, which stands "
-       "above all tables? [dials] takes hold, bounce, spring_back, curl_keep, weight, root_hold, tip_hold, "
-       "wet"},
-      {"[variation]\nsead = 2",
-       "line 2: found the unknown key 'sead' in [variation]; did you mean variation.seed?"},
-      {"[profile]\nxyz = 2",
-       "line 2: found the unknown key 'xyz' in [profile]; expected bend_stiffness, bend_damping_ratio, "
-       "stretch_stiffness, stretch_damping_time, core_stiffness, core_damping_ratio, line_density"},
-      {"[dial]\nhold = 2", "line 1: found the unknown key 'dial'; did you mean dials?"},
-      // types
-      {"bend_stiffness = '5'",
-       "line 1: found the text '5' for bend_stiffness; expected a number from 0.001 to 1000000 w"},
-      {"bend_stiffness = true",
-       "line 1: found true for bend_stiffness; expected a number from 0.001 to 1000000 w"},
-      {"bend_stiffness = [5, 6]",
-       "line 1: found a list of 2 for bend_stiffness; expected a number from 0.001 to 1000000 w"},
-      {"[bend_stiffness]\nx = 5",
-       "line 1: found a table for bend_stiffness; expected a number from 0.001 to 1000000 w"},
-      {"bend_stiffness = 2020-01-01",
-       "line 1: found a date or time for bend_stiffness; expected a number from 0.001 to 1000000 w"},
-      {"core_smoothing_length = 'auto'",
-       "line 1: found the text 'auto' for core_smoothing_length; expected a number from 0 to 1000 m, or "
-       "\"rest\""},
-      {"bend_stiffness = 'rest'",
-       "line 1: found the text 'rest' for bend_stiffness; expected a number from 0.001 to 1000000 w"},
-      {"[variation]\nseed = 1.5",
-       "line 2: found the number 1.5 for variation.seed; expected a whole number from 0 to 4294967295"},
-      {"dials = 3", "line 1: found the number 3 for dials; expected a table, as in [dials]"},
-      {"[[dials]]\nhold = 1", "line 1: found a list of 1 for dials; expected a table, as in [dials]"},
-      // ranges
-      {"bend_stiffness = -1",
-       "line 1: found the number -1 for bend_stiffness; expected a number from 0.001 to 1000000 w"},
-      {"bend_stiffness = nan",
-       "line 1: found the number nan for bend_stiffness; expected a number from 0.001 to 1000000 w"},
-      {"bend_stiffness = inf",
-       "line 1: found the number inf for bend_stiffness; expected a number from 0.001 to 1000000 w"},
-      {"bend_stiffness = 9223372036854775807",
-       "line 1: found the number 9223372036854775807 for bend_stiffness; expected a number from 0.001 to "
-       "1000000 w"},
-      {"core_relaxed_share = 1.5",
-       "line 1: found the number 1.5 for core_relaxed_share; expected a number from 0 to 1"},
-      {"[dials]\nhold = 0",
-       "line 2: found the number 0 for dials.hold; expected a number from 0.001 to 1000"},
-      {"[variation]\nbend_stiffness = 1.0",
-       "line 2: found the number 1 for variation.bend_stiffness; expected a number from 0 to 0.9"},
-      {"[variation]\nseed = -1",
-       "line 2: found the number -1 for variation.seed; expected a whole number from 0 to 4294967295"},
-      {"\n\ncore_elongation_low = 1.3",
-       "line 3: core_elongation_high is 1.1; it must be above core_elongation_low, which is 1.3, by 1e-06 or "
-       "more"},
-      // presets
-      {"preset = 'ringlets'",
-       "line 1: found the text 'ringlets' for preset; expected one of straight, wavy, loose_curl, ringlet, "
-       "coil; did you mean ringlet?"},
-      {"preset = 7",
-       "line 1: found the number 7 for preset; expected one of straight, wavy, loose_curl, ringlet, coil"},
-      // profiles
-      {"[profile]\nbend_stiffness = 2",
-       "line 2: found the number 2 for profile.bend_stiffness; expected a list of points [share of the arc "
-       "length, factor]"},
-      {"[profile]\nbend_stiffness = [0, 1]",
-       "line 2: found the number 0 for point 1 of profile.bend_stiffness; expected a list of points [share "
-       "of the arc length, factor]"},
-      {"[profile]\nbend_stiffness = [[0, 1],\n[1, 'x']]",
-       "line 3: found a list of 2 for point 2 of profile.bend_stiffness; expected a list of points [share of "
-       "the arc length, factor]"},
-      {"[profile]\nbend_stiffness = [[0, 1],\n[0, 2]]",
-       "line 3: profile.bend_stiffness: point 2 is [0, 2]; points must go from root to tip"},
-      {"[profile]\nline_density = [[0, 5000]]",
-       "line 2: profile.line_density: point 1 is [0, 5000]; its factor must be from 0.001 to 1000"},
-      // several: the topmost
-      {"line_density = 'x'\nbend_stiffness = 'y'\nabc = 1",
-       "line 1: found the text 'x' for line_density; expected a number from 1e-12 to 1000000 kg/m"},
-      {"abcdefgh.x = 1\nbend_stiffness = 'y'",
-       "line 1: found the unknown key 'abcdefgh'; expected preset, dials, variation, profile, line_density, "
-       "stretch_stiffness, stretch_damping_time, bend_stiffness, bend_damping_ratio, core_stiffness, "
-       "core_damping_ratio, core_relaxed_share, core_elongation_low, core_elongation_high, gravity_factor, "
-       "inertia_factor, "
-       "bend_smoothing_length, core_smoothing_length"},
-  };
-  for (const auto& c : kCases) {
+  for (const auto& c : kMistakes) {
     const std::string error = errorOf(c.text);
     EXPECT_EQ(error, std::string("hair.toml: ") + c.message) << c.text;
   }
