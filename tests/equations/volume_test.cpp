@@ -190,7 +190,8 @@ TEST(Volume, ADisplacementFades) {
 
 // A head whose strands grow denser to one side, and a second one beside it: strands in the volume, their
 // groups and the densities of their particles are the host's.
-TEST(Volume, GroupsAndDensitiesAreTheHosts) {
+// Two heads beside each other, of 150 and of 40 strands.
+Groom twoHeads() {
   HeadParameters head;
   head.curl.particleCount = 24;
   head.strandCount = 150;
@@ -209,6 +210,28 @@ TEST(Volume, GroupsAndDensitiesAreTheHosts) {
       points.push_back(p + Vec3f{0.02f + 0.04f * float(k), 0.01f, 0} * float(1 / groom.metresPerUnit));
     groom.addStrand(points);
   }
+  return groom;
+}
+
+void expectSameVolume(const RestVolume& volume, const ringlet::RestState& state,
+                      const Contacts<double>& contacts, std::size_t particleCount) {
+  ASSERT_EQ(volume.particles.size(), contacts.volume.particles.size());
+  EXPECT_NEAR(volume.cell, contacts.volume.cell, 1e-6 * volume.cell);
+  std::vector<const VolumeParticle*> byIndex(particleCount);
+  for (const VolumeParticle& p : contacts.volume.particles) byIndex[p.index] = &p;
+  for (std::size_t i = 0; i < volume.particles.size(); ++i) {
+    const std::uint32_t strand = volume.strands[i];
+    const VolumeParticle* p =
+        byIndex[state.firstInGroom[strand] + volume.particles[i] - state.strands[strand].firstParticle];
+    ASSERT_NE(p, nullptr);
+    EXPECT_NEAR(volume.densities[i], p->restDensity, 1e-5 * p->restDensity);
+    EXPECT_NEAR(volume.ownDensities[i], p->ownDensity, 1e-5 * p->ownDensity);
+    EXPECT_NEAR(volume.masses[i], p->mass, 1e-5 * p->mass);
+  }
+}
+
+TEST(Volume, GroupsAndDensitiesAreTheHosts) {
+  const Groom groom = twoHeads();
   // Of the dense strands and of the others; the first strand of the groom is in one.
   const auto bundles = std::make_shared<const std::vector<ContactBundle>>(
       std::vector<ContactBundle>{{0, 5, 7, 190}, {2, 3, 191}});
@@ -259,20 +282,7 @@ TEST(Volume, GroupsAndDensitiesAreTheHosts) {
       EXPECT_EQ(count, method == ContactMethod::volume ? (bundled ? 189u : 196u) : 0u);
     }
 
-    const RestVolume volume = buildRestVolume(*state, host);
-    ASSERT_EQ(volume.particles.size(), contacts.volume.particles.size());
-    EXPECT_NEAR(volume.cell, contacts.volume.cell, 1e-6 * volume.cell);
-    std::vector<const VolumeParticle*> byIndex(groom.points.size());
-    for (const VolumeParticle& p : contacts.volume.particles) byIndex[p.index] = &p;
-    for (std::size_t i = 0; i < volume.particles.size(); ++i) {
-      const std::uint32_t strand = volume.strands[i];
-      const VolumeParticle* p =
-          byIndex[state->firstInGroom[strand] + volume.particles[i] - state->strands[strand].firstParticle];
-      ASSERT_NE(p, nullptr);
-      EXPECT_NEAR(volume.densities[i], p->restDensity, 1e-5 * p->restDensity);
-      EXPECT_NEAR(volume.ownDensities[i], p->ownDensity, 1e-5 * p->ownDensity);
-      EXPECT_NEAR(volume.masses[i], p->mass, 1e-5 * p->mass);
-    }
+    expectSameVolume(buildRestVolume(*state, host), *state, contacts, groom.points.size());
   }
 }
 

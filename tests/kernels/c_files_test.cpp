@@ -366,6 +366,27 @@ TEST(CFilesOnly, AConfinedSceneNamesNothingOutsideItsFolder) {
   }
 }
 
+void expectThreeFrames(const fs::path& file, const Groom& topology) {
+  ringlet_frames* frames = nullptr;
+  ASSERT_EQ(ringlet_frames_open(file.c_str(), nullptr, nullptr, &frames), RINGLET_OK)
+      << ringlet_error_message();
+  ringlet_frames_facts facts = RINGLET_INIT(ringlet_frames_facts);
+  ASSERT_EQ(ringlet_frames_get(frames, &facts), RINGLET_OK);
+  EXPECT_EQ(facts.frames_per_second, 30);
+  EXPECT_EQ(facts.metres_per_unit, topology.metresPerUnit);
+  EXPECT_EQ(facts.frame_count, 3u);
+  EXPECT_EQ(facts.strand_count, 4u);
+  EXPECT_EQ(facts.is_finished, 1);
+  ASSERT_EQ(facts.particle_count, topology.points.size());
+  std::vector<Vec3f> points(facts.particle_count);
+  for (int frame = 0; frame < 3; ++frame)
+    ASSERT_EQ(ringlet_frames_next(frames, &points[0].x, points.size()), RINGLET_OK)
+        << ringlet_error_message();
+  EXPECT_NE(points[0], points[1]);
+  expectInvalid(ringlet_frames_next(frames, &points[0].x, points.size()), "3 frames");
+  ringlet_frames_release(frames);
+}
+
 // The file of C++'s writer, byte by byte, whether positions or hair are added; and its frames are read.
 TEST_F(CFiles, AnimationsAreThoseOfTheLibrary) {
   const fs::path folder = scratchFolder("c_animations");
@@ -420,25 +441,7 @@ TEST_F(CFiles, AnimationsAreThoseOfTheLibrary) {
       ASSERT_TRUE(file) << name;
       EXPECT_TRUE(*file == *expected) << name;
     }
-    if (!format.isRead) continue;
-    ringlet_frames* frames = nullptr;
-    ASSERT_EQ(ringlet_frames_open(fileOf("hair").c_str(), nullptr, nullptr, &frames), RINGLET_OK)
-        << ringlet_error_message();
-    ringlet_frames_facts facts = RINGLET_INIT(ringlet_frames_facts);
-    ASSERT_EQ(ringlet_frames_get(frames, &facts), RINGLET_OK);
-    EXPECT_EQ(facts.frames_per_second, 30);
-    EXPECT_EQ(facts.metres_per_unit, unit);
-    EXPECT_EQ(facts.frame_count, 3u);
-    EXPECT_EQ(facts.strand_count, 4u);
-    EXPECT_EQ(facts.is_finished, 1);
-    ASSERT_EQ(facts.particle_count, topology.points.size());
-    std::vector<Vec3f> points(facts.particle_count);
-    for (int frame = 0; frame < 3; ++frame)
-      ASSERT_EQ(ringlet_frames_next(frames, &points[0].x, points.size()), RINGLET_OK)
-          << ringlet_error_message();
-    EXPECT_NE(points[0], points[1]);
-    expectInvalid(ringlet_frames_next(frames, &points[0].x, points.size()), "3 frames");
-    ringlet_frames_release(frames);
+    if (format.isRead) expectThreeFrames(fileOf("hair"), topology);
   }
 }
 

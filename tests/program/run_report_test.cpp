@@ -189,41 +189,41 @@ TEST(RunReport, BodiesThatHairDidNotMeetAreNoSuccess) {
   EXPECT_NE(runText(kNames, settings(), far).find("deepest 2 mm"), std::string::npos);
 }
 
-TEST(MeasureReport, EveryNumberIsInItsUnit) {
+// Of the second strand they are three times the first's, so that mean, least and largest differ.
+StrandMeasure strandMeasure(double by) {
+  return {.droop = 0.0625 * by,
+          .relativeDroop = 0.125 * by,
+          .chord = 0.1875 * by,
+          .chordElongation = 0.25 * by,
+          .coreLength = 0.3125 * by,
+          .coreElongation = 0.375 * by,
+          .arcDrift = 0.4375 * by,
+          .maxEdgeStretch = 0.5 * by,
+          .turns = 0.5625 * by,
+          .winding = 0.625 * by,
+          .meanRadius = 0.6875 * by,
+          .handedness = -1,
+          .handednessKept = 0.25 * by,
+          .tipRotation = 0.8125 * by};
+}
+StrandMotion strandMotion(double by) {
+  StrandMotion made;
+  made.bounceHz = 2.5 * by, made.swayHz = 3.5 * by, made.settleSeconds = 4.5 * by;
+  made.energyRatio = 0.125 * by;
+  return made;
+}
+ShapeDistance distance(double by) {
+  return {.particles = 0.0625 * by,
+          .tip = 0.125 * by,
+          .core = 0.1875 * by,
+          .direction = 0.25 * by,
+          .turns = 0.3125 * by,
+          .radius = 0.375 * by};
+}
+Measured measured() {
   const Groom rest = test::groomOf({test::cut({.radius = 0}, 5), test::cut({.radius = 0}, 9)});
   auto ruler = GroomRuler::make(rest);
-  ASSERT_TRUE(ruler) << ruler.error().message;
-  // The second strand's numbers are three times the first's, so that mean, least and largest differ.
-  const auto strand = [](double by) {
-    return StrandMeasure{.droop = 0.0625 * by,
-                         .relativeDroop = 0.125 * by,
-                         .chord = 0.1875 * by,
-                         .chordElongation = 0.25 * by,
-                         .coreLength = 0.3125 * by,
-                         .coreElongation = 0.375 * by,
-                         .arcDrift = 0.4375 * by,
-                         .maxEdgeStretch = 0.5 * by,
-                         .turns = 0.5625 * by,
-                         .winding = 0.625 * by,
-                         .meanRadius = 0.6875 * by,
-                         .handedness = -1,
-                         .handednessKept = 0.25 * by,
-                         .tipRotation = 0.8125 * by};
-  };
-  const auto motion = [](double by) {
-    StrandMotion made;
-    made.bounceHz = 2.5 * by, made.swayHz = 3.5 * by, made.settleSeconds = 4.5 * by;
-    made.energyRatio = 0.125 * by;
-    return made;
-  };
-  const auto distance = [](double by) {
-    return ShapeDistance{.particles = 0.0625 * by,
-                         .tip = 0.125 * by,
-                         .core = 0.1875 * by,
-                         .direction = 0.25 * by,
-                         .turns = 0.3125 * by,
-                         .radius = 0.375 * by};
-  };
+  EXPECT_TRUE(ruler) << ruler.error().message;
   const CurlNumbers numbers{.strandCount = 2,
                             .particleCount = 14,
                             .frameCount = 96,
@@ -242,29 +242,33 @@ TEST(MeasureReport, EveryNumberIsInItsUnit) {
                             .worstDroop = -0.0625,
                             .worstCoreElongation = 1.5,
                             .worstTipRotation = 90};
-  const Measured measured{.ruler = std::move(*ruler),
-                          .strands = {strand(1), strand(3)},
-                          .motions = {motion(1), motion(3)},
-                          .distances = {distance(1), distance(3)},
-                          .against = "other.obj",
-                          .numbers = numbers,
-                          .seconds = 4,
-                          .freeSeconds = 1};
+  return {.ruler = std::move(*ruler),
+          .strands = {strandMeasure(1), strandMeasure(3)},
+          .motions = {strandMotion(1), strandMotion(3)},
+          .distances = {distance(1), distance(3)},
+          .against = "other.obj",
+          .numbers = numbers,
+          .seconds = 4,
+          .freeSeconds = 1};
+}
 
+template <class Of>
+json keysOf(Of&& of) {
+  return json{{"droop_mm", of(62.5)},          {"relative_droop", of(0.125)}, {"core_elongation", of(0.375)},
+              {"chord_elongation", of(0.25)},  {"core_length_mm", of(312.5)}, {"chord_mm", of(187.5)},
+              {"turns", of(0.5625)},           {"winding", of(0.625)},        {"mean_radius_mm", of(687.5)},
+              {"handedness_share", of(0.25)},  {"arc_drift", of(0.4375)},     {"max_edge_stretch", of(0.5)},
+              {"tip_rotation_deg", of(0.8125)}};
+}
+template <class Of>
+json distancesOf(Of&& of) {
+  return json{{"particles", of(0.0625)},   {"tip", of(0.125)},    {"core", of(0.1875)},
+              {"direction_deg", of(0.25)}, {"turns", of(0.3125)}, {"radius", of(0.375)}};
+}
+
+TEST(MeasureReport, EveryNumberIsInItsUnit) {
   // Mean, least, largest of b and 3 b.
   const auto spread = [](double b) { return json{2 * b, b, 3 * b}; };
-  const auto keysOf = [](const auto& of) {
-    return json{
-        {"droop_mm", of(62.5)},          {"relative_droop", of(0.125)}, {"core_elongation", of(0.375)},
-        {"chord_elongation", of(0.25)},  {"core_length_mm", of(312.5)}, {"chord_mm", of(187.5)},
-        {"turns", of(0.5625)},           {"winding", of(0.625)},        {"mean_radius_mm", of(687.5)},
-        {"handedness_share", of(0.25)},  {"arc_drift", of(0.4375)},     {"max_edge_stretch", of(0.5)},
-        {"tip_rotation_deg", of(0.8125)}};
-  };
-  const auto distancesOf = [](const auto& of) {
-    return json{{"particles", of(0.0625)},   {"tip", of(0.125)},    {"core", of(0.1875)},
-                {"direction_deg", of(0.25)}, {"turns", of(0.3125)}, {"radius", of(0.375)}};
-  };
   json expected{{"strands", 2},
                 {"particles", 14},
                 {"frames", 96},
@@ -285,7 +289,7 @@ TEST(MeasureReport, EveryNumberIsInItsUnit) {
                 {"velocity_residual", nullptr},
                 {"spread", keysOf(spread)},
                 {"against", distancesOf(spread)}};
-  EXPECT_EQ(printed(measuredJson(measured, false)), expected);
+  EXPECT_EQ(printed(measuredJson(measured(), false)), expected);
 
   for (double by : {1.0, 3.0}) {
     const auto of = [by](double b) { return b * by; };
@@ -301,7 +305,7 @@ TEST(MeasureReport, EveryNumberIsInItsUnit) {
                   {"against", distancesOf(of)}});
     expected["per_strand"].push_back(entry);
   }
-  EXPECT_EQ(printed(measuredJson(measured, true)), expected);
+  EXPECT_EQ(printed(measuredJson(measured(), true)), expected);
 }
 
 }  // namespace

@@ -189,71 +189,75 @@ void expectRange(const Range<Number>& range) {
   }
 }
 
+using S = Settings;
+
+void expectReal(const char* name, double& (*of)(S&), double low, double high) {
+  expectRange<double>({name, of, low, high, std::nextafter(low, -1e9), std::nextafter(high, 1e9)});
+  expectRange<double>({name, of, low, high, -INFINITY, NAN});
+}
+void expectWhole(const char* name, int& (*of)(S&), int low, int high) {
+  expectRange<int>({name, of, low, high, low - 1, high + 1});
+}
+
 TEST(RestLimits, SettingsAreRefusedJustOutsideTheirRanges) {
-  using S = Settings;
-  const auto real = [](const char* name, double& (*of)(S&), double low, double high) {
-    expectRange<double>({name, of, low, high, std::nextafter(low, -1e9), std::nextafter(high, 1e9)});
-    expectRange<double>({name, of, low, high, -INFINITY, NAN});
-  };
-  real(
+  expectReal(
       "fps", [](S& s) -> double& { return s.framesPerSecond; }, 1e-3, 1e6);
-  real(
+  expectReal(
       "preload", [](S& s) -> double& { return s.gravityPreload; }, 0, 1);
-  real(
+  expectReal(
       "gravity.x", [](S& s) -> double& { return s.gravity.x; }, -1e4, 1e4);
-  real(
+  expectReal(
       "gravity.y", [](S& s) -> double& { return s.gravity.y; }, -1e4, 1e4);
-  real(
+  expectReal(
       "gravity.z", [](S& s) -> double& { return s.gravity.z; }, -1e4, 1e4);
-  real(
+  expectReal(
       "max_stretch", [](S& s) -> double& { return s.maxStretch; }, 1, 100);
-  real(
+  expectReal(
       "teleport_distance", [](S& s) -> double& { return s.teleportDistance; }, 0, 1e6);
-  real(
+  expectWhole(
+      "steps_per_frame", [](S& s) -> int& { return s.stepsPerFrame; }, 1, 340);
+  expectWhole(
+      "roots", [](S& s) -> int& { return s.rootCount; }, 1, layout::kMaxRootCount);
+  expectWhole(
+      "iterations", [](S& s) -> int& { return s.pointIterations; }, 1, 60000);
+  expectWhole(
+      "force_loops", [](S& s) -> int& { return s.forceLoops; }, 1, 1000);
+  expectWhole(
+      "damping_loops", [](S& s) -> int& { return s.dampingLoops; }, 1, 1000);
+}
+
+TEST(RestLimits, SettingsOfContactsAreRefusedJustOutsideTheirRanges) {
+  expectReal(
       "contacts.radius", [](S& s) -> double& { return s.contacts.radius.emplace(); }, 1e-6, 1);
-  real(
+  expectReal(
       "contacts.spacing", [](S& s) -> double& { return s.contacts.spacing; }, 0.01, 1);
-  real(
+  expectReal(
       "contacts.detail", [](S& s) -> double& { return s.contacts.detail; }, 0.05, 1);
-  real(
+  expectReal(
       "contacts.enlargement", [](S& s) -> double& { return s.contacts.enlargement; }, 1, 100);
-  real(
+  expectReal(
       "contacts.drop_share", [](S& s) -> double& { return s.contacts.dropShare; }, 0, 1);
-  real(
+  expectReal(
       "contacts.stiffness", [](S& s) -> double& { return s.contacts.stiffness; }, 0, 1e7);
-  real(
+  expectReal(
       "contacts.damping_ratio", [](S& s) -> double& { return s.contacts.dampingRatio; }, 0, 100);
-  real(
+  expectReal(
       "contacts.friction", [](S& s) -> double& { return s.contacts.friction; }, 0, 1);
-  real(
+  expectReal(
       "contacts.ramp_seconds", [](S& s) -> double& { return s.contacts.rampSeconds; }, 0, 10);
-  real(
+  expectReal(
       "contacts.stiffness_release_seconds",
       [](S& s) -> double& { return s.contacts.stiffnessReleaseSeconds; }, 0, 10);
-  real(
+  expectReal(
       "contacts.damping_release_seconds", [](S& s) -> double& { return s.contacts.dampingReleaseSeconds; }, 0,
       10);
-  real(
+  expectReal(
       "contacts.break_factor", [](S& s) -> double& { return s.contacts.breakFactor; }, 1, 10);
-
-  const auto whole = [](const char* name, int& (*of)(S&), int low, int high) {
-    expectRange<int>({name, of, low, high, low - 1, high + 1});
-  };
-  whole(
-      "steps_per_frame", [](S& s) -> int& { return s.stepsPerFrame; }, 1, 340);
-  whole(
-      "roots", [](S& s) -> int& { return s.rootCount; }, 1, layout::kMaxRootCount);
-  whole(
-      "iterations", [](S& s) -> int& { return s.pointIterations; }, 1, 60000);
-  whole(
-      "force_loops", [](S& s) -> int& { return s.forceLoops; }, 1, 1000);
-  whole(
-      "damping_loops", [](S& s) -> int& { return s.dampingLoops; }, 1, 1000);
-  whole(
+  expectWhole(
       "contacts.min_overlaps", [](S& s) -> int& { return s.contacts.minOverlaps; }, 1, 1000000);
-  whole(
+  expectWhole(
       "contacts.max_neighbours", [](S& s) -> int& { return s.contacts.maxNeighbours; }, 0, 1000000);
-  whole(
+  expectWhole(
       "contacts.iterations", [](S& s) -> int& { return s.contacts.iterations.emplace(); }, 1, 1000);
 }
 
