@@ -235,83 +235,91 @@ void Host::wait(const Work& work) {
   CALL(vkDestroyCommandPool)(device_, work.pool, nullptr);
 }
 
-std::vector<std::uint32_t> Host::read(VkBuffer source, std::uint64_t bytes, const Record& before) {
-  const Owned target = makeBuffer(bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-  const Owned shift = makeBuffer(16, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+constexpr std::uint32_t kGroupSize = 64;
+constexpr VkDescriptorType kKinds[] = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                       VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
 
+Host::Kernel Host::makeKernel() {
+  Kernel kernel{};
   std::array<VkDescriptorSetLayoutBinding, 3> bindings{};
-  std::array<VkDescriptorBufferInfo, 3> buffers{
-      {{source, 0, bytes}, {target.buffer, 0, bytes}, {shift.buffer, 0, 16}}};
-  std::array<VkWriteDescriptorSet, 3> writes{};
-  const std::array<VkDescriptorPoolSize, 2> sizes{
-      {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2}, {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1}}};
-  for (std::uint32_t b = 0; b < 3; ++b) {
-    bindings[b] = {b, b < 2 ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER : VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1,
-                   VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
-  }
+  for (std::uint32_t b = 0; b < 3; ++b) bindings[b] = {b, kKinds[b], 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
   VkDescriptorSetLayoutCreateInfo setInfo{};
   setInfo.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
   setInfo.bindingCount = 3;
   setInfo.pBindings = bindings.data();
-  VkDescriptorSetLayout setLayout;
-  CALL(vkCreateDescriptorSetLayout)(device_, &setInfo, nullptr, &setLayout);
+  CALL(vkCreateDescriptorSetLayout)(device_, &setInfo, nullptr, &kernel.setLayout);
   const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, 8};
   VkPipelineLayoutCreateInfo layoutInfo{};
   layoutInfo.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
   layoutInfo.setLayoutCount = 1;
-  layoutInfo.pSetLayouts = &setLayout;
+  layoutInfo.pSetLayouts = &kernel.setLayout;
   layoutInfo.pushConstantRangeCount = 1;
   layoutInfo.pPushConstantRanges = &push;
-  VkPipelineLayout layout;
-  CALL(vkCreatePipelineLayout)(device_, &layoutInfo, nullptr, &layout);
+  CALL(vkCreatePipelineLayout)(device_, &layoutInfo, nullptr, &kernel.layout);
 
   VkShaderModuleCreateInfo moduleInfo{};
   moduleInfo.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
   moduleInfo.codeSize = sizeof(k_scale_values_test);
   moduleInfo.pCode = k_scale_values_test;
-  VkShaderModule module;
-  CALL(vkCreateShaderModule)(device_, &moduleInfo, nullptr, &module);
-  const std::uint32_t groupSize = 64;
+  CALL(vkCreateShaderModule)(device_, &moduleInfo, nullptr, &kernel.module);
   const VkSpecializationMapEntry entry{0, 0, 4};
-  const VkSpecializationInfo special{1, &entry, 4, &groupSize};
+  const VkSpecializationInfo special{1, &entry, 4, &kGroupSize};
   VkComputePipelineCreateInfo pipelineInfo{};
   pipelineInfo.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
   pipelineInfo.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
   pipelineInfo.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-  pipelineInfo.stage.module = module;
+  pipelineInfo.stage.module = kernel.module;
   pipelineInfo.stage.pName = "main";
   pipelineInfo.stage.pSpecializationInfo = &special;
-  pipelineInfo.layout = layout;
-  VkPipeline pipeline;
-  CALL(vkCreateComputePipelines)(device_, VK_NULL_HANDLE, 1, &pipelineInfo, nullptr, &pipeline);
+  pipelineInfo.layout = kernel.layout;
+  CALL(vkCreateComputePipelines)(device_, VK_NULL_HANDLE, 1, &pipelineInfo, nullptr, &kernel.pipeline);
+  return kernel;
+}
 
+void Host::bind(Kernel& kernel, const std::array<VkDescriptorBufferInfo, 3>& buffers) {
+  std::array<VkWriteDescriptorSet, 3> writes{};
+  const std::array<VkDescriptorPoolSize, 2> sizes{
+      {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2}, {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1}}};
   VkDescriptorPoolCreateInfo poolInfo{};
   poolInfo.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
   poolInfo.maxSets = 1;
   poolInfo.poolSizeCount = 2;
   poolInfo.pPoolSizes = sizes.data();
-  VkDescriptorPool pool;
-  CALL(vkCreateDescriptorPool)(device_, &poolInfo, nullptr, &pool);
+  CALL(vkCreateDescriptorPool)(device_, &poolInfo, nullptr, &kernel.pool);
   VkDescriptorSetAllocateInfo allocateSet{};
   allocateSet.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
-  allocateSet.descriptorPool = pool;
+  allocateSet.descriptorPool = kernel.pool;
   allocateSet.descriptorSetCount = 1;
-  allocateSet.pSetLayouts = &setLayout;
-  VkDescriptorSet set;
-  CALL(vkAllocateDescriptorSets)(device_, &allocateSet, &set);
+  allocateSet.pSetLayouts = &kernel.setLayout;
+  CALL(vkAllocateDescriptorSets)(device_, &allocateSet, &kernel.set);
   for (std::uint32_t b = 0; b < 3; ++b) {
     writes[b] = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                  nullptr,
-                 set,
+                 kernel.set,
                  b,
                  0,
                  1,
-                 bindings[b].descriptorType,
+                 kKinds[b],
                  nullptr,
                  &buffers[b],
                  nullptr};
   }
   CALL(vkUpdateDescriptorSets)(device_, 3, writes.data(), 0, nullptr);
+}
+
+void Host::drop(const Kernel& kernel) {
+  CALL(vkDestroyDescriptorPool)(device_, kernel.pool, nullptr);
+  CALL(vkDestroyPipeline)(device_, kernel.pipeline, nullptr);
+  CALL(vkDestroyShaderModule)(device_, kernel.module, nullptr);
+  CALL(vkDestroyPipelineLayout)(device_, kernel.layout, nullptr);
+  CALL(vkDestroyDescriptorSetLayout)(device_, kernel.setLayout, nullptr);
+}
+
+std::vector<std::uint32_t> Host::read(VkBuffer source, std::uint64_t bytes, const Record& before) {
+  const Owned target = makeBuffer(bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  const Owned shift = makeBuffer(16, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+  Kernel kernel = makeKernel();
+  bind(kernel, {{{source, 0, bytes}, {target.buffer, 0, bytes}, {shift.buffer, 0, 16}}});
 
   const auto count = static_cast<std::uint32_t>(bytes / 4);
   const auto record = [&](VkCommandBuffer commands) {
@@ -324,22 +332,18 @@ std::vector<std::uint32_t> Host::read(VkBuffer source, std::uint64_t bytes, cons
     CALL(vkCmdPipelineBarrier)
     (commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 1, &barrier, 0,
      nullptr, 0, nullptr);
-    CALL(vkCmdBindPipeline)(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+    CALL(vkCmdBindPipeline)(commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline);
     CALL(vkCmdBindDescriptorSets)
-    (commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, nullptr);
+    (commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout, 0, 1, &kernel.set, 0, nullptr);
     const std::array<std::uint32_t, 2> countAndFactor{count, 1};
-    CALL(vkCmdPushConstants)(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, 8, countAndFactor.data());
-    CALL(vkCmdDispatch)(commands, (count + groupSize - 1) / groupSize, 1, 1);
+    CALL(vkCmdPushConstants)
+    (commands, kernel.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, 8, countAndFactor.data());
+    CALL(vkCmdDispatch)(commands, (count + kGroupSize - 1) / kGroupSize, 1, 1);
   };
   wait(submit(record));
   std::vector<std::uint32_t> values(count);
   std::memcpy(values.data(), target.mapped, bytes);
-
-  CALL(vkDestroyDescriptorPool)(device_, pool, nullptr);
-  CALL(vkDestroyPipeline)(device_, pipeline, nullptr);
-  CALL(vkDestroyShaderModule)(device_, module, nullptr);
-  CALL(vkDestroyPipelineLayout)(device_, layout, nullptr);
-  CALL(vkDestroyDescriptorSetLayout)(device_, setLayout, nullptr);
+  drop(kernel);
   drop(target);
   drop(shift);
   return values;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <vulkan/vulkan.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -67,10 +68,22 @@ class Host {
     VkDeviceMemory memory = VK_NULL_HANDLE;
     void* mapped = nullptr;
   };
+  // One that copies numbers, with a set of its buffers.
+  struct Kernel {
+    VkDescriptorSetLayout setLayout;
+    VkPipelineLayout layout;
+    VkShaderModule module;
+    VkPipeline pipeline;
+    VkDescriptorPool pool;
+    VkDescriptorSet set;
+  };
   void makeInstance();
   void makeDevice(const HostVulkanNeeds& needs);
   Owned makeBuffer(std::uint64_t bytes, VkBufferUsageFlags usage);
   void drop(const Owned& owned);
+  Kernel makeKernel();
+  void bind(Kernel& kernel, const std::array<VkDescriptorBufferInfo, 3>& buffers);
+  void drop(const Kernel& kernel);
 
   Calls calls_;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
