@@ -40,6 +40,11 @@ struct Good : Handles {
   ringlet_scene* loaded = nullptr;
   ringlet_groom groom = RINGLET_INIT(ringlet_groom);
   std::vector<float> xyz = std::vector<float>(3 * kParticles, 0.25f);
+  ringlet_groom_reading reading = RINGLET_INIT(ringlet_groom_reading);
+  ringlet_scene_reading sceneReading = RINGLET_INIT(ringlet_scene_reading);
+  ringlet_asset_options options = RINGLET_INIT(ringlet_asset_options);
+  ringlet_animation_options animationOptions = RINGLET_INIT(ringlet_animation_options);
+  ringlet_pose head{}, poses[8]{};
 
   void make() {
     std::ofstream(mesh) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
@@ -63,6 +68,11 @@ struct Good : Handles {
         << ringlet_error_message();
     return animation;
   }
+  ringlet_frames* opened() {
+    ringlet_frames* made = nullptr;
+    EXPECT_EQ(ringlet_frames_open(frames.c_str(), nullptr, nullptr, &made), RINGLET_OK);
+    return made;
+  }
   ~Good() { ringlet_scene_release(loaded); }
 };
 
@@ -78,33 +88,31 @@ T* orNull(T* pointer, unsigned nulls, int bit) {
   return nulls & (1u << bit) ? nullptr : pointer;
 }
 
-std::vector<Call> callsOf(Good& c) {
-  static ringlet_groom_reading reading = RINGLET_INIT(ringlet_groom_reading);
-  static ringlet_scene_reading sceneReading = RINGLET_INIT(ringlet_scene_reading);
-  static ringlet_asset_options options = RINGLET_INIT(ringlet_asset_options);
-  static ringlet_animation_options animationOptions = RINGLET_INIT(ringlet_animation_options);
-  static ringlet_pose head{}, poses[8];
-  const auto release = [](auto* handle, auto releaseIt, ringlet_result result) {
-    releaseIt(handle);
-    return result;
-  };
-  std::vector<Call> calls{
+// What a call said; what it made is released.
+template <class Handle>
+ringlet_result released(Handle* handle, void (*release)(Handle*), ringlet_result result) {
+  release(handle);
+  return result;
+}
+
+std::vector<Call> readingCalls(Good& c) {
+  return {
       {"ringlet_groom_read",
        {"path", "[reading]", "groom"},
-       [&c, release](unsigned n) {
+       [&c](unsigned n) {
          ringlet_loaded_groom* groom = nullptr;
          const auto result =
-             ringlet_groom_read(orNull(c.hair.c_str(), n, 0), orNull(&reading, n, 1), orNull(&groom, n, 2));
-         return release(groom, ringlet_loaded_groom_release, result);
+             ringlet_groom_read(orNull(c.hair.c_str(), n, 0), orNull(&c.reading, n, 1), orNull(&groom, n, 2));
+         return released(groom, ringlet_loaded_groom_release, result);
        }},
       {"ringlet_loaded_groom_get",
        {"from", "groom"},
-       [&c, release](unsigned n) {
+       [&c](unsigned n) {
          ringlet_loaded_groom* from = nullptr;
          EXPECT_EQ(ringlet_groom_read(c.hair.c_str(), nullptr, &from), RINGLET_OK);
          ringlet_groom groom = RINGLET_INIT(ringlet_groom);
          const auto result = ringlet_loaded_groom_get(orNull(from, n, 0), orNull(&groom, n, 1));
-         return release(from, ringlet_loaded_groom_release, result);
+         return released(from, ringlet_loaded_groom_release, result);
        }},
       {"ringlet_groom_write",
        {"path", "groom"},
@@ -113,11 +121,11 @@ std::vector<Call> callsOf(Good& c) {
        }},
       {"ringlet_material_read",
        {"preset_or_path", "[user]", "material"},
-       [release](unsigned n) {
+       [&c](unsigned n) {
          ringlet_material* material = nullptr;
-         const auto result = ringlet_material_read(orNull("coil", n, 0), nullptr, orNull(&head, n, 1),
+         const auto result = ringlet_material_read(orNull("coil", n, 0), nullptr, orNull(&c.head, n, 1),
                                                    orNull(&material, n, 2));
-         return release(material, ringlet_material_release, result);
+         return released(material, ringlet_material_release, result);
        }},
       {"ringlet_material_write",
        {"path", "material"},
@@ -127,35 +135,40 @@ std::vector<Call> callsOf(Good& c) {
        }},
       {"ringlet_mesh_read",
        {"path", "mesh"},
-       [&c, release](unsigned n) {
+       [&c](unsigned n) {
          ringlet_mesh* mesh = nullptr;
          const auto result = ringlet_mesh_read(orNull(c.mesh.c_str(), n, 0), 0.01, orNull(&mesh, n, 1));
-         return release(mesh, ringlet_mesh_release, result);
+         return released(mesh, ringlet_mesh_release, result);
        }},
       {"ringlet_mesh_get",
        {"from", "body"},
-       [&c, release](unsigned n) {
+       [&c](unsigned n) {
          ringlet_mesh* mesh = nullptr;
          EXPECT_EQ(ringlet_mesh_read(c.mesh.c_str(), 0.01, &mesh), RINGLET_OK);
          ringlet_body body = RINGLET_INIT(ringlet_body);
          const auto result = ringlet_mesh_get(orNull(mesh, n, 0), orNull(&body, n, 1));
-         return release(mesh, ringlet_mesh_release, result);
+         return released(mesh, ringlet_mesh_release, result);
        }},
+  };
+}
+
+std::vector<Call> sceneCalls(Good& c) {
+  return {
       {"ringlet_scene_read",
        {"path", "[reading]", "scene"},
-       [&c, release](unsigned n) {
+       [&c](unsigned n) {
          ringlet_scene* scene = nullptr;
-         const auto result = ringlet_scene_read(orNull(c.scene.c_str(), n, 0), orNull(&sceneReading, n, 1),
+         const auto result = ringlet_scene_read(orNull(c.scene.c_str(), n, 0), orNull(&c.sceneReading, n, 1),
                                                 orNull(&scene, n, 2));
-         return release(scene, ringlet_scene_release, result);
+         return released(scene, ringlet_scene_release, result);
        }},
       {"ringlet_scene_parse",
        {"text", "[folder]", "[reading]", "scene"},
-       [release](unsigned n) {
+       [&c](unsigned n) {
          ringlet_scene* scene = nullptr;
          const auto result = ringlet_scene_parse(orNull(kScene, n, 0), orNull(".", n, 1),
-                                                 orNull(&sceneReading, n, 2), orNull(&scene, n, 3));
-         return release(scene, ringlet_scene_release, result);
+                                                 orNull(&c.sceneReading, n, 2), orNull(&scene, n, 3));
+         return released(scene, ringlet_scene_release, result);
        }},
       {"ringlet_scene_get",
        {"scene", "facts"},
@@ -168,39 +181,44 @@ std::vector<Call> callsOf(Good& c) {
        [&c](unsigned n) { return ringlet_scene_groom(orNull(c.loaded, n, 0), orNull(&c.groom, n, 1)); }},
       {"ringlet_scene_settings",
        {"scene", "settings"},
-       [&c, release](unsigned n) {
+       [&c](unsigned n) {
          ringlet_settings* settings = nullptr;
          const auto result = ringlet_scene_settings(orNull(c.loaded, n, 0), orNull(&settings, n, 1));
-         return release(settings, ringlet_settings_release, result);
+         return released(settings, ringlet_settings_release, result);
        }},
       {"ringlet_scene_material",
        {"scene", "material"},
-       [&c, release](unsigned n) {
+       [&c](unsigned n) {
          ringlet_material* material = nullptr;
          const auto result = ringlet_scene_material(orNull(c.loaded, n, 0), orNull(&material, n, 1));
-         return release(material, ringlet_material_release, result);
+         return released(material, ringlet_material_release, result);
        }},
       {"ringlet_scene_frame_poses",
        {"scene", "step_poses", "[body_poses]", "[root_poses]"},
        [&c](unsigned n) {
-         return ringlet_scene_frame_poses(orNull(c.loaded, n, 0), 0, orNull(poses, n, 1),
-                                          orNull(poses + 4, n, 2), orNull(poses, n, 3));
+         return ringlet_scene_frame_poses(orNull(c.loaded, n, 0), 0, orNull(c.poses, n, 1),
+                                          orNull(c.poses + 4, n, 2), orNull(c.poses, n, 3));
        }},
+  };
+}
+
+std::vector<Call> sceneHairCalls(Good& c) {
+  return {
       {"ringlet_scene_build",
        {"device", "scene", "[options]", "asset"},
-       [&c, release](unsigned n) {
+       [&c](unsigned n) {
          ringlet_asset* asset = nullptr;
          const auto result = ringlet_scene_build(orNull(c.device, n, 0), orNull(c.loaded, n, 1),
-                                                 orNull(&options, n, 2), orNull(&asset, n, 3));
-         return release(asset, ringlet_asset_release, result);
+                                                 orNull(&c.options, n, 2), orNull(&asset, n, 3));
+         return released(asset, ringlet_asset_release, result);
        }},
       {"ringlet_scene_hair",
        {"scene", "asset", "hair"},
-       [&c, release](unsigned n) {
+       [&c](unsigned n) {
          ringlet_hair* hair = nullptr;
          const auto result =
              ringlet_scene_hair(orNull(c.loaded, n, 0), orNull(c.asset, n, 1), orNull(&hair, n, 2));
-         return release(hair, ringlet_hair_release, result);
+         return released(hair, ringlet_hair_release, result);
        }},
       {"ringlet_scene_step",
        {"scene", "hair"},
@@ -215,68 +233,81 @@ std::vector<Call> callsOf(Good& c) {
          return ringlet_scene_run(orNull(c.loaded, n, 0), orNull(&run, n, 1), orNull(&result, n, 2),
                                   orNull(xyz.data(), n, 3), kParticles);
        }},
+  };
+}
+
+std::vector<Call> animationCalls(Good& c) {
+  return {
       {"ringlet_animation_create",
        {"path", "groom", "[options]", "animation"},
-       [&c, release](unsigned n) {
+       [&c](unsigned n) {
          const std::string path = (c.folder / "made.usda").string();
          ringlet_animation* animation = nullptr;
          const auto result =
              ringlet_animation_create(orNull(path.c_str(), n, 0), orNull(&c.groom, n, 1),
-                                      orNull(&animationOptions, n, 2), orNull(&animation, n, 3));
-         return release(animation, ringlet_animation_release, result);
+                                      orNull(&c.animationOptions, n, 2), orNull(&animation, n, 3));
+         return released(animation, ringlet_animation_release, result);
        }},
       {"ringlet_animation_add",
        {"animation", "xyz", "[head]"},
-       [&c, release](unsigned n) {
+       [&c](unsigned n) {
          ringlet_animation* animation = c.begun((c.folder / "added.usda").c_str());
          const auto result = ringlet_animation_add(orNull(animation, n, 0), orNull(c.xyz.data(), n, 1),
-                                                   kParticles, orNull(&head, n, 2));
-         return release(animation, ringlet_animation_release, result);
+                                                   kParticles, orNull(&c.head, n, 2));
+         return released(animation, ringlet_animation_release, result);
        }},
       {"ringlet_animation_add_hair",
        {"animation", "hair"},
-       [&c, release](unsigned n) {
+       [&c](unsigned n) {
          ringlet_animation* animation = c.begun((c.folder / "added.usda").c_str());
          const auto result = ringlet_animation_add_hair(orNull(animation, n, 0), orNull(c.hairs[0], n, 1));
-         return release(animation, ringlet_animation_release, result);
+         return released(animation, ringlet_animation_release, result);
        }},
       {"ringlet_animation_finish",
        {"animation"},
-       [&c, release](unsigned n) {
+       [&c](unsigned n) {
          ringlet_animation* animation = c.begun((c.folder / "finished.usda").c_str());
          EXPECT_EQ(ringlet_animation_add(animation, c.xyz.data(), kParticles, nullptr), RINGLET_OK);
          const auto result = ringlet_animation_finish(orNull(animation, n, 0));
-         return release(animation, ringlet_animation_release, result);
+         return released(animation, ringlet_animation_release, result);
        }},
+  };
+}
+
+std::vector<Call> framesCalls(Good& c) {
+  return {
       {"ringlet_frames_open",
        {"path", "[user]", "frames"},
-       [&c, release](unsigned n) {
+       [&c](unsigned n) {
          ringlet_frames* frames = nullptr;
-         const auto result = ringlet_frames_open(orNull(c.frames.c_str(), n, 0), nullptr, orNull(&head, n, 1),
-                                                 orNull(&frames, n, 2));
-         return release(frames, ringlet_frames_release, result);
+         const auto result = ringlet_frames_open(orNull(c.frames.c_str(), n, 0), nullptr,
+                                                 orNull(&c.head, n, 1), orNull(&frames, n, 2));
+         return released(frames, ringlet_frames_release, result);
+       }},
+      {"ringlet_frames_get",
+       {"frames", "facts"},
+       [&c](unsigned n) {
+         ringlet_frames* frames = c.opened();
+         ringlet_frames_facts facts = RINGLET_INIT(ringlet_frames_facts);
+         const auto result = ringlet_frames_get(orNull(frames, n, 0), orNull(&facts, n, 1));
+         return released(frames, ringlet_frames_release, result);
+       }},
+      {"ringlet_frames_next",
+       {"frames", "xyz"},
+       [&c](unsigned n) {
+         ringlet_frames* frames = c.opened();
+         float room[3 * kParticles];
+         const auto result = ringlet_frames_next(orNull(frames, n, 0), orNull(room, n, 1), kParticles);
+         return released(frames, ringlet_frames_release, result);
        }},
   };
-  static const auto withFrames = [](const Good& good, auto&& call) {
-    ringlet_frames* frames = nullptr;
-    EXPECT_EQ(ringlet_frames_open(good.frames.c_str(), nullptr, nullptr, &frames), RINGLET_OK);
-    const ringlet_result result = call(frames);
-    ringlet_frames_release(frames);
-    return result;
-  };
-  calls.push_back({"ringlet_frames_get", {"frames", "facts"}, [&c](unsigned n) {
-                     return withFrames(c, [n](ringlet_frames* frames) {
-                       ringlet_frames_facts facts = RINGLET_INIT(ringlet_frames_facts);
-                       return ringlet_frames_get(orNull(frames, n, 0), orNull(&facts, n, 1));
-                     });
-                   }});
-  calls.push_back({"ringlet_frames_next", {"frames", "xyz"}, [&c](unsigned n) {
-                     return withFrames(c, [n](ringlet_frames* frames) {
-                       static float room[3 * kParticles];
-                       return ringlet_frames_next(orNull(frames, n, 0), orNull(room, n, 1), kParticles);
-                     });
-                   }});
-  return calls;
+}
+
+std::vector<Call> callsOf(Good& c) {
+  std::vector<Call> all;
+  for (const auto& calls : {readingCalls, sceneCalls, sceneHairCalls, animationCalls, framesCalls})
+    for (Call& call : calls(c)) all.push_back(std::move(call));
+  return all;
 }
 
 TEST(CWrongFilesList, HasEveryFunctionOfTheHeader) {
@@ -364,11 +395,12 @@ TEST_F(CWrongFiles, StructsOfOtherSizes) {
   });
 }
 
-TEST_F(CWrongFiles, NumbersThatNothingHas) {
-  Good c;
-  open(c);
-  c.make();
-  c.start();
+struct Number {
+  const char* name;
+  std::function<ringlet_result(double)> give;
+};
+
+std::vector<Number> numbersOf(Good& c) {
   const auto animation = [&](auto set) {
     return [&c, set](double value) {
       ringlet_animation_options options = RINGLET_INIT(ringlet_animation_options);
@@ -376,54 +408,45 @@ TEST_F(CWrongFiles, NumbersThatNothingHas) {
       ringlet_animation* made = nullptr;
       const ringlet_result result =
           ringlet_animation_create((c.folder / "n.usda").c_str(), &c.groom, &options, &made);
-      ringlet_animation_release(made);
-      return result;
+      return released(made, ringlet_animation_release, result);
     };
   };
-  struct Number {
-    const char* name;
-    std::function<ringlet_result(double)> give;
-  };
-  const Number numbers[] = {
+  return {
       {"groom_reading.metres_per_unit",
-       [&](double value) {
+       [&c](double value) {
          ringlet_groom_reading reading = RINGLET_INIT(ringlet_groom_reading);
          reading.metres_per_unit = value;
          ringlet_loaded_groom* groom = nullptr;
          const ringlet_result result = ringlet_groom_read(c.hair.c_str(), &reading, &groom);
-         ringlet_loaded_groom_release(groom);
-         return result;
+         return released(groom, ringlet_loaded_groom_release, result);
        }},
       {"mesh metres_per_unit",
-       [&](double value) {
+       [&c](double value) {
          ringlet_mesh* mesh = nullptr;
          const ringlet_result result = ringlet_mesh_read(c.mesh.c_str(), value, &mesh);
-         ringlet_mesh_release(mesh);
-         return result;
+         return released(mesh, ringlet_mesh_release, result);
        }},
       {"frames_per_second", animation([](auto& o, double v) { o.frames_per_second = v; })},
       {"metres_per_unit", animation([](auto& o, double v) { o.metres_per_unit = v; })},
       {"width", animation([](auto& o, double v) { o.width = v; })},
       {"tip_width", animation([](auto& o, double v) { o.tip_width = v; })},
       {"xyz",
-       [&](double value) {
+       [&c](double value) {
          ringlet_animation* made = c.begun((c.folder / "n.usdc").c_str());
          std::vector<float> xyz = c.xyz;
          xyz[31] = static_cast<float>(value);
          const ringlet_result result = ringlet_animation_add(made, xyz.data(), kParticles, nullptr);
-         ringlet_animation_release(made);
-         return result;
+         return released(made, ringlet_animation_release, result);
        }},
       {"head",
-       [&](double value) {
+       [&c](double value) {
          ringlet_animation* made = c.begun((c.folder / "n.rgc").c_str());
          const ringlet_pose head{{0, value, 0}, {0, 0, 0, 0}};
          const ringlet_result result = ringlet_animation_add(made, c.xyz.data(), kParticles, &head);
-         ringlet_animation_release(made);
-         return result;
+         return released(made, ringlet_animation_release, result);
        }},
       {"groom.points",
-       [&](double value) {
+       [&c](double value) {
          std::vector<float> xyz = c.xyz;
          xyz[31] = static_cast<float>(value);
          ringlet_groom groom = c.groom;
@@ -431,13 +454,27 @@ TEST_F(CWrongFiles, NumbersThatNothingHas) {
          return ringlet_groom_write((c.folder / "n.hair").c_str(), &groom);
        }},
   };
-  for (const Number& number : numbers) {
+}
+
+TEST_F(CWrongFiles, NumbersThatNothingHas) {
+  Good c;
+  open(c);
+  c.make();
+  c.start();
+  for (const Number& number : numbersOf(c)) {
     for (const double value : {double(NAN), double(INFINITY), -double(INFINITY), 3e300, -3e300}) {
       EXPECT_NE(number.give(value), RINGLET_OK) << number.name << " = " << value;
       EXPECT_STRNE(ringlet_error_message(), "");
     }
     EXPECT_EQ(number.give(0.01), RINGLET_OK) << number.name << ": " << ringlet_error_message();
   }
+}
+
+TEST_F(CWrongFiles, FramesAndParticlesThatASceneHasNot) {
+  Good c;
+  open(c);
+  c.make();
+  c.start();
   for (const std::int32_t frame : {-2147483647 - 1, 2147483647, 1'000'001}) {
     ringlet_pose poses[8];
     expectInvalid(ringlet_scene_frame_poses(c.loaded, frame, poses, nullptr, nullptr), "frame is");
