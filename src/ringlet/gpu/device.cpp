@@ -106,15 +106,7 @@ std::uint64_t memoryOf(VkPhysicalDevice handle) {
   return own > 0 ? own : all;
 }
 
-Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
-                  const DeviceOptions& options) {
-  Candidate candidate;
-  candidate.handle = handle;
-  DeviceProperties& p = candidate.listing.properties;
-
-  VkPhysicalDeviceProperties basic;
-  vkGetPhysicalDeviceProperties(handle, &basic);
-  p.index = index;
+void takeBasics(const VkPhysicalDeviceProperties& basic, const DeviceOptions& options, DeviceProperties& p) {
   p.name = basic.deviceName;
   p.type = typeName(basic.deviceType);
   p.isCpu = basic.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU && !options.asGpu;
@@ -122,8 +114,6 @@ Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
   p.driverVersion = basic.driverVersion;
   p.vendorId = basic.vendorID;
   p.deviceId = basic.deviceID;
-  p.memoryBytes = memoryOf(handle);
-  p.apiVersion = std::min(basic.apiVersion, instance.apiVersion());
   p.maxStorageBufferRange = basic.limits.maxStorageBufferRange;
   p.maxTexelRecords = basic.limits.maxTexelBufferElements;
   if (options.mostTexelRecords > 0) p.maxTexelRecords = std::min(p.maxTexelRecords, options.mostTexelRecords);
@@ -137,6 +127,102 @@ Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
   p.maxPushConstantBytes = basic.limits.maxPushConstantsSize;
   p.maxSharedMemoryBytes = basic.limits.maxComputeSharedMemorySize;
   p.timestampPeriod = basic.limits.timestampPeriod;
+}
+
+// What came after Vulkan 1.1 and is known.
+struct Known {
+  bool driver = false, sizeControl = false, atomics64 = false, inspection = false;
+};
+
+struct Answers {
+  VkPhysicalDeviceSubgroupProperties subgroup;
+  VkPhysicalDeviceMaintenance3Properties memory;
+  VkPhysicalDeviceDriverProperties driver;
+  VkPhysicalDeviceSubgroupSizeControlProperties size;
+  VkPhysicalDeviceFeatures2 features;
+  VkPhysicalDeviceSubgroupSizeControlFeatures sizeFeatures;
+  VkPhysicalDeviceShaderAtomicInt64Features atomics64;
+  VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR inspection;
+};
+
+// The rest of the answers is 0.
+Answers ask(VkPhysicalDevice handle, const Known& known) {
+  Answers a{};
+  a.subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
+  a.memory.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
+  a.driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+  a.size.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES;
+  a.features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+  a.sizeFeatures.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES;
+  a.atomics64.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_ATOMIC_INT64_FEATURES;
+  a.inspection.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR;
+  auto properties = zeroed<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2);
+  properties.pNext = &a.subgroup;
+  a.subgroup.pNext = &a.memory;
+  if (known.driver) a.driver.pNext = std::exchange(a.memory.pNext, &a.driver);
+  if (known.sizeControl) {
+    a.size.pNext = std::exchange(a.memory.pNext, &a.size);
+    a.features.pNext = &a.sizeFeatures;
+  }
+  if (known.atomics64) a.atomics64.pNext = std::exchange(a.features.pNext, &a.atomics64);
+  if (known.inspection) a.inspection.pNext = std::exchange(a.features.pNext, &a.inspection);
+  vkGetPhysicalDeviceProperties2(handle, &properties);
+  vkGetPhysicalDeviceFeatures2(handle, &a.features);
+  return a;
+}
+
+void takeSubgroups(const Answers& a, const Known& known, const DeviceOptions& options, Candidate& candidate) {
+  DeviceProperties& p = candidate.listing.properties;
+  p.reportedSubgroupSize = p.minSubgroupSize = p.maxSubgroupSize = a.subgroup.subgroupSize;
+  if (known.sizeControl) {
+    p.minSubgroupSize = a.size.minSubgroupSize;
+    p.maxSubgroupSize = a.size.maxSubgroupSize;
+  }
+  constexpr VkSubgroupFeatureFlags kShuffle = VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
+  p.hasSubgroupShuffle = (a.subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
+                         (a.subgroup.supportedOperations & kShuffle) == kShuffle;
+  const bool usesSizeControl = known.sizeControl && !options.withoutFullSubgroups;
+  p.canChooseSubgroupSize = usesSizeControl && a.sizeFeatures.subgroupSizeControl &&
+                            (a.size.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
+  p.hasFullSubgroups = usesSizeControl && a.sizeFeatures.computeFullSubgroups;
+  p.subgroupSize = defaultSubgroupSize(p);
+  p.maxGroupSubgroups = usesSizeControl ? a.size.maxComputeWorkgroupSubgroups : 0;
+  if ((p.canChooseSubgroupSize || p.hasFullSubgroups) && p.apiVersion < VK_API_VERSION_1_3) {
+    candidate.extensions.push_back(VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME);
+  }
+}
+
+void takeAnswers(const Answers& a, const Known& known, const DeviceOptions& options, Candidate& candidate) {
+  DeviceProperties& p = candidate.listing.properties;
+  p.hasAtomicInt64 =
+      a.features.features.shaderInt64 && a.atomics64.shaderBufferInt64Atomics && !options.withoutAtomicInt64;
+  if (p.hasAtomicInt64 && p.apiVersion < VK_API_VERSION_1_2)
+    candidate.extensions.push_back(VK_KHR_SHADER_ATOMIC_INT64_EXTENSION_NAME);
+  if (known.inspection && a.inspection.pipelineExecutableInfo) {
+    p.inspection = options.inspection;
+    candidate.extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+  }
+
+  if (known.driver) {
+    p.driver = fmt::format("{} {}", a.driver.driverName, a.driver.driverInfo);
+    p.driverId = static_cast<std::uint32_t>(a.driver.driverID);
+  }
+  p.maxAllocationBytes = a.memory.maxMemoryAllocationSize;
+  takeSubgroups(a, known, options, candidate);
+}
+
+Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
+                  const DeviceOptions& options) {
+  Candidate candidate;
+  candidate.handle = handle;
+  DeviceProperties& p = candidate.listing.properties;
+
+  VkPhysicalDeviceProperties basic;
+  vkGetPhysicalDeviceProperties(handle, &basic);
+  p.index = index;
+  p.memoryBytes = memoryOf(handle);
+  p.apiVersion = std::min(basic.apiVersion, instance.apiVersion());
+  takeBasics(basic, options, p);
   if (p.apiVersion < kNeededApiVersion) {
     const bool isDrivers = basic.apiVersion < kNeededApiVersion;
     candidate.listing.why =
@@ -160,79 +246,18 @@ Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
     if (!has(name.c_str())) missing = name;
     candidate.extensions.push_back(name.c_str());
   }
-  const bool isPortability = has("VK_KHR_portability_subset");
-  if (isPortability)
+  if (has("VK_KHR_portability_subset"))
     candidate.extensions.push_back("VK_KHR_portability_subset");  // must be switched on where it is
 
-  // What came after 1.1 is asked for only where it is known.
-  const bool hasDriverProperties =
-      p.apiVersion >= VK_API_VERSION_1_2 || has(VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME);
   candidate.hasMemoryBudget = has(VK_EXT_MEMORY_BUDGET_EXTENSION_NAME) &&  // to ask needs no switching on
                               !options.withoutMemoryBudget;
-  const bool hasSizeControlInCore = p.apiVersion >= VK_API_VERSION_1_3;
-  const bool hasSizeControl = hasSizeControlInCore || has(VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME);
-
-  auto properties = zeroed<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2);
-  auto subgroup =
-      zeroed<VkPhysicalDeviceSubgroupProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES);
-  auto memory = zeroed<VkPhysicalDeviceMaintenance3Properties>(
-      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES);
-  auto driver = zeroed<VkPhysicalDeviceDriverProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES);
-  auto size = zeroed<VkPhysicalDeviceSubgroupSizeControlProperties>(
-      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES);
-  auto features = zeroed<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
-  auto sizeFeatures = zeroed<VkPhysicalDeviceSubgroupSizeControlFeatures>(
-      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES);
-  properties.pNext = &subgroup;
-  subgroup.pNext = &memory;
-  if (hasDriverProperties) driver.pNext = std::exchange(memory.pNext, &driver);
-  if (hasSizeControl) {
-    size.pNext = std::exchange(memory.pNext, &size);
-    features.pNext = &sizeFeatures;
-  }
-  const bool hasAtomics64InCore = p.apiVersion >= VK_API_VERSION_1_2;
-  const bool mayHaveAtomics64 = hasAtomics64InCore || has(VK_KHR_SHADER_ATOMIC_INT64_EXTENSION_NAME);
-  auto atomics64 = zeroed<VkPhysicalDeviceShaderAtomicInt64Features>(
-      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_ATOMIC_INT64_FEATURES);
-  if (mayHaveAtomics64) atomics64.pNext = std::exchange(features.pNext, &atomics64);
-  auto inspectionFeatures = zeroed<VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR>(
-      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR);
-  const bool mayInspect =
-      options.inspection != Inspection::none && has(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
-  if (mayInspect) inspectionFeatures.pNext = std::exchange(features.pNext, &inspectionFeatures);
-  vkGetPhysicalDeviceProperties2(handle, &properties);
-  vkGetPhysicalDeviceFeatures2(handle, &features);
-  p.hasAtomicInt64 =
-      features.features.shaderInt64 && atomics64.shaderBufferInt64Atomics && !options.withoutAtomicInt64;
-  if (p.hasAtomicInt64 && !hasAtomics64InCore)
-    candidate.extensions.push_back(VK_KHR_SHADER_ATOMIC_INT64_EXTENSION_NAME);
-  if (mayInspect && inspectionFeatures.pipelineExecutableInfo) {
-    p.inspection = options.inspection;
-    candidate.extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
-  }
-
-  if (hasDriverProperties) {
-    p.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
-    p.driverId = static_cast<std::uint32_t>(driver.driverID);
-  }
-  p.maxAllocationBytes = memory.maxMemoryAllocationSize;
-  p.reportedSubgroupSize = p.minSubgroupSize = p.maxSubgroupSize = subgroup.subgroupSize;
-  if (hasSizeControl) {
-    p.minSubgroupSize = size.minSubgroupSize;
-    p.maxSubgroupSize = size.maxSubgroupSize;
-  }
-  constexpr VkSubgroupFeatureFlags kShuffle = VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
-  p.hasSubgroupShuffle = (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
-                         (subgroup.supportedOperations & kShuffle) == kShuffle;
-  const bool usesSizeControl = hasSizeControl && !options.withoutFullSubgroups;
-  p.canChooseSubgroupSize = usesSizeControl && sizeFeatures.subgroupSizeControl &&
-                            (size.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
-  p.hasFullSubgroups = usesSizeControl && sizeFeatures.computeFullSubgroups;
-  p.subgroupSize = defaultSubgroupSize(p);
-  p.maxGroupSubgroups = usesSizeControl ? size.maxComputeWorkgroupSubgroups : 0;
-  if ((p.canChooseSubgroupSize || p.hasFullSubgroups) && !hasSizeControlInCore) {
-    candidate.extensions.push_back(VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME);
-  }
+  const Known known{
+      .driver = p.apiVersion >= VK_API_VERSION_1_2 || has(VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME),
+      .sizeControl = p.apiVersion >= VK_API_VERSION_1_3 || has(VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME),
+      .atomics64 = p.apiVersion >= VK_API_VERSION_1_2 || has(VK_KHR_SHADER_ATOMIC_INT64_EXTENSION_NAME),
+      .inspection = options.inspection != Inspection::none &&
+                    has(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME)};
+  takeAnswers(ask(handle, known), known, options, candidate);
 
   const std::vector<VkQueueFamilyProperties> families = queueFamilies(handle);
   const auto family = chooseComputeFamily(families, options.wantsGraphics);

@@ -107,6 +107,59 @@ VkDebugUtilsMessengerCreateInfoEXT messengerInfo(ValidationLog* log) {
   return info;
 }
 
+// A loader of Vulkan 1.0 refuses applications that ask for more.
+Status checkLoader(std::uint32_t version) {
+  if (version >= VK_API_VERSION_1_1) return {};
+  return Error{fmt::format(
+      "the Vulkan loader of this machine is of version {}.{}; 1.1 or newer is needed: update it (on Debian "
+      "the package libvulkan1)",
+      VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version))};
+}
+
+// What an instance is made with.
+struct SwitchedOn {
+  std::vector<const char*> extensions, layers;
+  VkInstanceCreateFlags flags = 0;
+  bool debugUtils = false;
+};
+
+Result<SwitchedOn> switchedOn(bool validation, std::span<const std::string> wanted) {
+  auto extensions = instanceExtensions(nullptr);
+  if (!extensions) return extensions.error();
+  SwitchedOn on;
+  // Drivers that put Vulkan on top of another interface (MoltenVK) are shown only to those who ask.
+  if (contains(*extensions, VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME)) {
+    on.extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
+    on.flags = VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR;
+  }
+
+  for (const std::string& name : wanted) {
+    if (!contains(*extensions, name.c_str()))
+      return Error{fmt::format(
+          "the Vulkan loader of this machine has no {}, which a window needs: install the driver of its "
+          "display, on Debian mesa-vulkan-drivers",
+          name)};
+    on.extensions.push_back(name.c_str());
+  }
+
+  if (validation) {
+    auto hasLayer = hasValidationLayer();
+    if (!hasLayer) return hasLayer.error();
+    if (!*hasLayer) {
+      return Error{fmt::format(
+          "RINGLET_VALIDATION=1 asks for the Vulkan layer {}, which is not installed: on Debian install the "
+          "package vulkan-validationlayers, or unset RINGLET_VALIDATION",
+          kValidationLayer)};
+    }
+    on.layers.push_back(kValidationLayer);
+    on.extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
+  }
+  // Names for messages and capture tools; the layer has it where the loader has not.
+  on.debugUtils = validation || contains(*extensions, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+  if (on.debugUtils) on.extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+  return on;
+}
+
 }  // namespace
 
 void ValidationLog::add(std::string message) {
@@ -121,55 +174,14 @@ std::vector<std::string> ValidationLog::messages() const {
 
 Result<std::unique_ptr<Instance>> Instance::create(bool validation, std::span<const std::string> wanted) {
   if (Status status = openLoader(); !status) return status.error();
-
-  // A loader of Vulkan 1.0 refuses applications that ask for more.
   const std::uint32_t loaderVersion = volkGetInstanceVersion();
-  if (loaderVersion < VK_API_VERSION_1_1) {
-    return Error{fmt::format(
-        "the Vulkan loader of this machine is of version {}.{}; 1.1 or newer is needed: update it (on Debian "
-        "the package libvulkan1)",
-        VK_API_VERSION_MAJOR(loaderVersion), VK_API_VERSION_MINOR(loaderVersion))};
-  }
-
-  auto extensions = instanceExtensions(nullptr);
-  if (!extensions) return extensions.error();
-  std::vector<const char*> extensionNames;
-  std::vector<const char*> layerNames;
+  if (Status status = checkLoader(loaderVersion); !status) return status.error();
+  const auto on = switchedOn(validation, wanted);
+  if (!on) return on.error();
   std::unique_ptr<Instance> self(new Instance);
   self->apiVersion_ = std::min<std::uint32_t>(loaderVersion, VK_API_VERSION_1_3);
-
-  // Drivers that put Vulkan on top of another interface (MoltenVK) are shown only to those who ask.
-  VkInstanceCreateFlags flags = 0;
-  if (contains(*extensions, VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME)) {
-    extensionNames.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
-    flags = VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR;
-  }
-
-  for (const std::string& name : wanted) {
-    if (!contains(*extensions, name.c_str()))
-      return Error{fmt::format(
-          "the Vulkan loader of this machine has no {}, which a window needs: install the driver of its "
-          "display, on Debian mesa-vulkan-drivers",
-          name)};
-    extensionNames.push_back(name.c_str());
-  }
-
-  if (validation) {
-    auto hasLayer = hasValidationLayer();
-    if (!hasLayer) return hasLayer.error();
-    if (!*hasLayer) {
-      return Error{fmt::format(
-          "RINGLET_VALIDATION=1 asks for the Vulkan layer {}, which is not installed: on Debian install the "
-          "package vulkan-validationlayers, or unset RINGLET_VALIDATION",
-          kValidationLayer)};
-    }
-    layerNames.push_back(kValidationLayer);
-    extensionNames.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
-    self->validationLog_ = std::make_shared<ValidationLog>();
-  }
-  // Names for messages and capture tools; the layer has it where the loader has not.
-  self->hasDebugUtils_ = validation || contains(*extensions, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
-  if (self->hasDebugUtils_) extensionNames.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+  self->hasDebugUtils_ = on->debugUtils;
+  if (validation) self->validationLog_ = std::make_shared<ValidationLog>();
 
   // The messenger stands in the chain too, so that the instance's own creation and end are watched.
   const std::array enabled{VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
@@ -186,12 +198,12 @@ Result<std::unique_ptr<Instance>> Instance::create(bool validation, std::span<co
 
   auto info = zeroed<VkInstanceCreateInfo>(VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO);
   info.pNext = validation ? &features : nullptr;
-  info.flags = flags;
+  info.flags = on->flags;
   info.pApplicationInfo = &application;
-  info.enabledLayerCount = static_cast<std::uint32_t>(layerNames.size());
-  info.ppEnabledLayerNames = layerNames.data();
-  info.enabledExtensionCount = static_cast<std::uint32_t>(extensionNames.size());
-  info.ppEnabledExtensionNames = extensionNames.data();
+  info.enabledLayerCount = static_cast<std::uint32_t>(on->layers.size());
+  info.ppEnabledLayerNames = on->layers.data();
+  info.enabledExtensionCount = static_cast<std::uint32_t>(on->extensions.size());
+  info.ppEnabledExtensionNames = on->extensions.data();
   const VkResult created = vkCreateInstance(&info, nullptr, &self->instance_);
   if (created == VK_ERROR_INCOMPATIBLE_DRIVER) {
     return Error{

@@ -43,6 +43,41 @@ std::pair<VkResult, OwnedBufferView> viewOf(Device& device, const Buffer& buffer
   return {result, OwnedBufferView(device.shared_from_this(), view)};
 }
 
+std::string attemptTo(const KernelDescription& description, const DeviceProperties& limits) {
+  return fmt::format("make the kernel '{}' on {}", description.name, limits.name);
+}
+
+// Of the limits it could break, before the driver is asked.
+Status checkLimits(const KernelDescription& description, std::uint32_t storageCount,
+                   const DeviceProperties& limits) {
+  const auto tooMuch = [&](std::uint32_t needed, const char* what, std::uint32_t limit) {
+    return Error{fmt::format("could not {}: it needs {} {}, the device has {}",
+                             attemptTo(description, limits), needed, what, limit)};
+  };
+  if (storageCount > limits.maxStorageBuffers) {
+    Error error = tooMuch(storageCount, "storage buffers (maxPerStageDescriptorStorageBuffers)",
+                          limits.maxStorageBuffers);
+    if (!description.remedy.empty()) error.message += "; " + description.remedy;
+    return error;
+  }
+  if (description.groupSize > limits.maxGroupInvocations) {
+    return tooMuch(description.groupSize, "invocations in a workgroup (maxComputeWorkGroupInvocations)",
+                   limits.maxGroupInvocations);
+  }
+  if (description.pushConstantBytes > limits.maxPushConstantBytes) {
+    return tooMuch(description.pushConstantBytes, "bytes of push constants (maxPushConstantsSize)",
+                   limits.maxPushConstantBytes);
+  }
+  return {};
+}
+
+Error tooLargeUniform(const Buffer& buffer, std::uint64_t limit, const std::string& attempt) {
+  return Error{fmt::format(
+      "could not {}: the buffer '{}' of {} bytes is too large for a uniform, of which this device allows {} "
+      "(maxUniformBufferRange)",
+      attempt, buffer.name(), buffer.bytes(), limit)};
+}
+
 }  // namespace
 
 Result<std::shared_ptr<const Kernel>> Kernel::create(Device& device, const KernelDescription& asked) {
@@ -66,38 +101,15 @@ bool Kernel::isCompiled(const Device& device, const KernelDescription& descripti
 Result<std::shared_ptr<const Kernel>> Kernel::compile(Device& device, const KernelDescription& description) {
   RINGLET_ASSERT(description.pushConstantBytes % 4 == 0, "push constants come in units of 4 bytes");
   const DeviceProperties& limits = device.properties();
-  const auto attempt = [&] {
-    return fmt::format("make the kernel '{}' on {}", description.name, limits.name);
-  };
-
-  // The limits it could break, before the driver is asked.
-  const auto tooMuch = [&](std::uint32_t needed, const char* what, std::uint32_t limit) {
-    return Error{
-        fmt::format("could not {}: it needs {} {}, the device has {}", attempt(), needed, what, limit)};
-  };
-  std::vector<KernelBinding> kernelBindings = bindingsOf(description.spirv);
-  const std::uint32_t storageCount = countOf(kernelBindings, BindingKind::storage);
-  if (storageCount > limits.maxStorageBuffers) {
-    Error error = tooMuch(storageCount, "storage buffers (maxPerStageDescriptorStorageBuffers)",
-                          limits.maxStorageBuffers);
-    if (!description.remedy.empty()) error.message += "; " + description.remedy;
-    return error;
-  }
-  if (description.groupSize > limits.maxGroupInvocations) {
-    return tooMuch(description.groupSize, "invocations in a workgroup (maxComputeWorkGroupInvocations)",
-                   limits.maxGroupInvocations);
-  }
-  if (description.pushConstantBytes > limits.maxPushConstantBytes) {
-    return tooMuch(description.pushConstantBytes, "bytes of push constants (maxPushConstantsSize)",
-                   limits.maxPushConstantBytes);
-  }
+  std::vector<KernelBinding> bindings = bindingsOf(description.spirv);
+  if (Status fits = checkLimits(description, countOf(bindings, BindingKind::storage), limits); !fits)
+    return fits.error();
 
   const std::shared_ptr<Kernel> kernel(new Kernel);
   Kernel& self = *kernel;
-  const std::shared_ptr<Device> keeper = keptByDevice(device);
   self.device_ = &device;
   self.name_ = description.name;
-  self.bindings_ = std::move(kernelBindings);
+  self.bindings_ = std::move(bindings);
   self.pushConstantBytes_ = description.pushConstantBytes;
   self.groupSize_ = description.groupSize;
   const std::uint32_t width = description.subgroupSize ? description.subgroupSize : limits.subgroupSize;
@@ -107,9 +119,15 @@ Result<std::shared_ptr<const Kernel>> Kernel::compile(Device& device, const Kern
   self.subgroupSize_ = width;
   self.hasFullSubgroups_ = description.wantsFullSubgroups && limits.hasFullSubgroups && fitsGroup &&
                            description.groupSize % width == 0;
+  if (Status made = self.makeLayout(description); !made) return made.error();
+  if (Status made = self.makePipeline(description, asksForWidth); !made) return made.error();
+  return std::shared_ptr<const Kernel>(kernel);
+}
 
+Status Kernel::makeLayout(const KernelDescription& description) {
+  const std::shared_ptr<Device> keeper = keptByDevice(*device_);
   std::vector<VkDescriptorSetLayoutBinding> bindings;
-  for (const auto& [number, kind] : self.bindings_) {
+  for (const auto& [number, kind] : bindings_) {
     VkDescriptorSetLayoutBinding binding{};
     binding.binding = number;
     binding.descriptorType = descriptorType(kind);
@@ -121,9 +139,10 @@ Result<std::shared_ptr<const Kernel>> Kernel::compile(Device& device, const Kern
   setInfo.bindingCount = static_cast<std::uint32_t>(bindings.size());
   setInfo.pBindings = bindings.data();
   VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;
-  RINGLET_VK_CHECK(device.vk().vkCreateDescriptorSetLayout(device.handle(), &setInfo, nullptr, &setLayout),
-                   attempt());
-  self.setLayout_ = OwnedSetLayout(keeper, setLayout);
+  RINGLET_VK_CHECK(
+      device_->vk().vkCreateDescriptorSetLayout(device_->handle(), &setInfo, nullptr, &setLayout),
+      attemptTo(description, device_->properties()));
+  setLayout_ = OwnedSetLayout(keeper, setLayout);
 
   VkPushConstantRange range{};
   range.stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
@@ -134,16 +153,20 @@ Result<std::shared_ptr<const Kernel>> Kernel::compile(Device& device, const Kern
   layoutInfo.pushConstantRangeCount = range.size > 0 ? 1 : 0;
   layoutInfo.pPushConstantRanges = &range;
   VkPipelineLayout layout = VK_NULL_HANDLE;
-  RINGLET_VK_CHECK(device.vk().vkCreatePipelineLayout(device.handle(), &layoutInfo, nullptr, &layout),
-                   attempt());
-  self.layout_ = OwnedPipelineLayout(keeper, layout);
+  RINGLET_VK_CHECK(device_->vk().vkCreatePipelineLayout(device_->handle(), &layoutInfo, nullptr, &layout),
+                   attemptTo(description, device_->properties()));
+  layout_ = OwnedPipelineLayout(keeper, layout);
+  return {};
+}
 
+Status Kernel::makePipeline(const KernelDescription& description, bool asksForWidth) {
+  const std::shared_ptr<Device> keeper = keptByDevice(*device_);
   auto moduleInfo = zeroed<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
   moduleInfo.codeSize = description.spirv.size_bytes();
   moduleInfo.pCode = description.spirv.data();
   VkShaderModule module = VK_NULL_HANDLE;
-  RINGLET_VK_CHECK(device.vk().vkCreateShaderModule(device.handle(), &moduleInfo, nullptr, &module),
-                   attempt());
+  RINGLET_VK_CHECK(device_->vk().vkCreateShaderModule(device_->handle(), &moduleInfo, nullptr, &module),
+                   attemptTo(description, device_->properties()));
   const OwnedShaderModule ownedModule(keeper, module);
 
   std::vector<VkSpecializationMapEntry> entries;
@@ -163,7 +186,7 @@ Result<std::shared_ptr<const Kernel>> Kernel::compile(Device& device, const Kern
 
   auto subgroupSize = zeroed<VkPipelineShaderStageRequiredSubgroupSizeCreateInfo>(
       VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO);
-  subgroupSize.requiredSubgroupSize = width;
+  subgroupSize.requiredSubgroupSize = subgroupSize_;
 
   auto info = zeroed<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
   info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
@@ -171,16 +194,16 @@ Result<std::shared_ptr<const Kernel>> Kernel::compile(Device& device, const Kern
   info.stage.module = module;
   info.stage.pName = "main";
   info.stage.pSpecializationInfo = &specialization;
-  if (self.hasFullSubgroups_) info.stage.flags = VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
+  if (hasFullSubgroups_) info.stage.flags = VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
   if (asksForWidth) info.stage.pNext = &subgroupSize;
-  info.layout = layout;
-  if (limits.inspection == Inspection::statistics)
+  info.layout = layout_.get();
+  if (device_->properties().inspection == Inspection::statistics)
     info.flags |= VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR;
   VkPipeline pipeline = VK_NULL_HANDLE;
   const auto compiled = [&]() -> Status {
-    RINGLET_VK_CHECK(device.vk().vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info,
-                                                          nullptr, &pipeline),
-                     attempt());
+    RINGLET_VK_CHECK(device_->vk().vkCreateComputePipelines(device_->handle(), device_->pipelineCache(), 1,
+                                                            &info, nullptr, &pipeline),
+                     attemptTo(description, device_->properties()));
     return {};
   }();
   if (!compiled) {
@@ -188,9 +211,9 @@ Result<std::shared_ptr<const Kernel>> Kernel::compile(Device& device, const Kern
     if (error.fault == Fault::other) error.fault = Fault::compile;
     return error;
   }
-  self.pipeline_ = OwnedPipeline(keeper, pipeline);
-  device.nameObject(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline), description.name);
-  return std::shared_ptr<const Kernel>(kernel);
+  pipeline_ = OwnedPipeline(keeper, pipeline);
+  device_->nameObject(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline), description.name);
+  return {};
 }
 
 Result<Bindings> Bindings::create(const Kernel& kernel, const BufferTable& buffers) {
@@ -229,15 +252,9 @@ Result<Bindings> Bindings::create(const Kernel& kernel, const BufferTable& buffe
     const auto found = buffers.find(number);
     RINGLET_ASSERT(found != buffers.end(), "a kernel needs a buffer for each of its bindings");
     const Buffer& buffer = found->second;
-    if (kind == BindingKind::uniform) {
-      const std::uint64_t limit = device.properties().maxUniformBufferRange;
-      if (buffer.capacity() > limit) {
-        return Error{fmt::format(
-            "could not {}: the buffer '{}' of {} bytes is too large for a uniform, of which this device "
-            "allows {} (maxUniformBufferRange)",
-            attempt(), buffer.name(), buffer.bytes(), limit)};
-      }
-    }
+    const std::uint64_t limit = device.properties().maxUniformBufferRange;
+    if (kind == BindingKind::uniform && buffer.capacity() > limit)
+      return tooLargeUniform(buffer, limit, attempt());
     if (kind == BindingKind::texels) {
       auto view = viewOf(device, buffer);
       if (view.first != VK_SUCCESS) return vulkanError("vkCreateBufferView", view.first, attempt());

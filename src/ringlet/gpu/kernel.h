@@ -63,6 +63,8 @@ class Kernel {
  private:
   Kernel() = default;
   static Result<std::shared_ptr<const Kernel>> compile(Device& device, const KernelDescription& description);
+  Status makeLayout(const KernelDescription& description);
+  Status makePipeline(const KernelDescription& description, bool asksForWidth);
 
   Device* device_ = nullptr;  // which keeps this
   OwnedSetLayout setLayout_;
