@@ -33,8 +33,7 @@ std::uint32_t mostOfContacts() {
   std::uint32_t most = 0;
   for (std::size_t k = 0; k < contactKernelCount(ContactTaper::distance); ++k) {
     const auto which = static_cast<ContactKernel>(k);
-    most = std::max(
-        most, storageCount(describeContactKernel(which, ContactTaper::distance, true, 64, true, false)));
+    most = std::max(most, storageCount(describeContactKernel(which, {.inGroups = true, .texels = true})));
   }
   for (std::size_t k = 0; k < kVolumeKernelCount; ++k)
     most = std::max(most, storageCount(describeVolumeKernel(static_cast<VolumeKernel>(k), true, false)));

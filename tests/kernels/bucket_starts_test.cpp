@@ -82,15 +82,14 @@ class BucketStarts : public GpuTest {
 };
 
 TEST_F(BucketStarts, ArePrefixSums) {
-  const Scan contacts{
-      "contact_scan",
-      describeContactKernel(ContactKernel::scan, ContactTaper::distance, false, 64, false, false),
-      layout::kBindGrid,
-      layout::kBindControl,
-      layout::kBindContactNumbers,
-      sizeof(layout::ContactControl),
-      offsetof(layout::ContactControl, finished),
-      true};
+  const Scan contacts{"contact_scan",
+                      describeContactKernel(ContactKernel::scan, {}),
+                      layout::kBindGrid,
+                      layout::kBindControl,
+                      layout::kBindContactNumbers,
+                      sizeof(layout::ContactControl),
+                      offsetof(layout::ContactControl, finished),
+                      true};
   const Scan volume{"volume_scan",
                     describeVolumeKernel(VolumeKernel::scan, false, false),
                     layout::kBindVolumeCells,

@@ -59,8 +59,7 @@ class ContactOrder : public GpuTest {
       layout::ContactRest& rest = rests.emplace_back();
       rest.particle = c, rest.strand = c / 2;
     }
-    auto kernel = gpu::Kernel::create(
-        gpu(), describeContactKernel(ContactKernel::order, ContactTaper::distance, false, 64, texels, false));
+    auto kernel = gpu::Kernel::create(gpu(), describeContactKernel(ContactKernel::order, {.texels = texels}));
     auto unused = createZero(gpu(), kContacts * sizeof(layout::ContactPlace), "unused");
     auto position = createFilled(gpu(), positions, "positions");
     auto rest = createFilled(gpu(), rests, "contacts");

@@ -52,7 +52,7 @@ TEST(DispatchPlan, NoDispatchLoopsLongerThanLavapipeLets) {
         if (hasFewLanes) settings.forceLoops = 4;
         const auto ranges = planRanges(counts, kLavapipe, {.form = form, .manyKernels = true});
         ASSERT_TRUE(ranges) << ranges.error().message;
-        const auto plan = planFrame(*ranges, kLavapipe, settings, bodies, 64);
+        const auto plan = planFrame(*ranges, {kLavapipe, 64}, settings, bodies);
         ASSERT_TRUE(plan) << plan.error().message;
         for (const PlannedDispatch& d : *plan) {
           const StrandRange& range = (*ranges)[d.range];
@@ -78,7 +78,7 @@ TEST(DispatchPlan, EveryStrandAndStepOnce) {
       settings.stepsPerFrame = 300;
       const auto ranges = planRanges(counts, limits, {.manyKernels = true});
       ASSERT_TRUE(ranges) << ranges.error().message;
-      const auto plan = planFrame(*ranges, limits, settings, 0, 64);
+      const auto plan = planFrame(*ranges, {limits, 64}, settings, 0);
       ASSERT_TRUE(plan) << plan.error().message;
       std::vector<std::uint32_t> nextStep(counts.size(), 0);
       for (const PlannedDispatch& d : *plan) {
@@ -101,7 +101,7 @@ TEST(DispatchPlan, RefusesWhatCannotBe) {
   const auto messageOf = [&](const KernelChoice& choice) {
     const auto ranges = planRanges(std::vector<std::uint32_t>{1000}, kLavapipe, choice);
     EXPECT_TRUE(ranges) << ranges.error().message;
-    return planFrame(*ranges, kLavapipe, settings, 0, 64).error().message;
+    return planFrame(*ranges, {kLavapipe, 64}, settings, 0).error().message;
   };
   for (const char* part : {"1000 particles", "loop turns", "use the jacobi integrator"})
     EXPECT_NE(messageOf({}).find(part), std::string::npos) << messageOf({});

@@ -76,7 +76,7 @@ TEST(SubmissionPace, DispatchesKeepTheBound) {
   ASSERT_TRUE(ranges) << ranges.error().message;
   for (const std::uint64_t most : {1ull, 1000ull, 50'000ull, 1'000'000ull}) {
     SCOPED_TRACE(most);
-    const auto plan = planFrame(*ranges, limits, settings, 0, 64, most);
+    const auto plan = planFrame(*ranges, {limits, 64, most}, settings, 0);
     ASSERT_TRUE(plan) << plan.error().message;
     std::vector<std::uint32_t> nextStep(counts.size(), 0);
     for (const PlannedDispatch& d : *plan) {
@@ -89,7 +89,7 @@ TEST(SubmissionPace, DispatchesKeepTheBound) {
       }
     }
     for (const std::uint32_t step : nextStep) EXPECT_EQ(step, 30u);
-    const auto pass = planPass(*ranges, limits, settings, 0, 64, {.moves = true}, most);
+    const auto pass = planPass(*ranges, {limits, 64, most}, settings, 0, {.moves = true});
     ASSERT_TRUE(pass) << pass.error().message;
     std::size_t inPass = 0;
     for (const PlannedDispatch& d : *pass) {

@@ -56,8 +56,8 @@ std::vector<ListedKernel> listKernels(const ComputeDevice& device, std::span<con
                          describeStrandKernel(shape, work.options)});
   }
   const auto add = [&](ContactKernel which, ContactTaper taper, const char* what) {
-    const auto description = describeContactKernel(which, taper, false, kContactGroupSize, texels,
-                                                   !device.gpu().properties().isCpu);
+    const auto description = describeContactKernel(
+        which, {.taper = taper, .texels = texels, .forGpu = !device.gpu().properties().isCpu});
     kernels.push_back({description.name + std::string(what), description});
   };
   using enum ContactKernel;

@@ -206,7 +206,7 @@ Result<FeaturePlan> HairAsset::Implementation::makePlan(const Features& features
     if (!asked) return asked.error();
     plan.groupSize = *asked;
   }
-  const auto frame = planFrame(plan.ranges, limits, settings, features.bodies ? 1 : 0, plan.groupSize);
+  const auto frame = planFrame(plan.ranges, {limits, plan.groupSize}, settings, features.bodies ? 1 : 0);
   if (!frame) return frame.error();
   if (!features.goals) return plan;
   if (!rest.particles.empty()) {

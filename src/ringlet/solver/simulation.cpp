@@ -70,7 +70,7 @@ Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState
   if (!featurePlan) return featurePlan.error();
   const DeviceLimits& limits = constant.limits;
   const auto plan =
-      planFrame((*featurePlan)->ranges, limits, settings, initial.bodies.size(), (*featurePlan)->groupSize);
+      planFrame((*featurePlan)->ranges, {limits, (*featurePlan)->groupSize}, settings, initial.bodies.size());
   if (!plan) return plan.error();  // before anything is made for it
 
   std::vector<layout::StrandRest> strands = shiftedStrands(rest, initial.rootShifts);
@@ -116,9 +116,11 @@ Status Simulation::Implementation::addContacts() {
     contacts.pairs = std::move(*stage);
   }
   if (asset->volume) {
-    auto stage =
-        VolumeStage::create(device().gpu(), rest(), settings, *asset->volume, asset->halo.has_value(),
-                            buffers, inputs.get<HeadInput>().poses(), asset->choice.volumeRange);
+    auto stage = VolumeStage::create(device().gpu(), rest(), settings, *asset->volume,
+                                     {.groom = buffers,
+                                      .poses = inputs.get<HeadInput>().poses(),
+                                      .isDivided = asset->halo.has_value(),
+                                      .range = asset->choice.volumeRange});
     if (!stage) return stage.error();
     contacts.volume = std::move(*stage);
   }

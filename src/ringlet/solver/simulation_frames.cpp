@@ -96,8 +96,8 @@ void Simulation::Implementation::recordEnd(FrameRecording& frame) const {
 
 Status Simulation::Implementation::recordSteps(FrameRecording& frame) const {
   for (const StrandKernels* of : {&kernels.strands, &kernels.fallen}) {
-    const auto dispatches = planFrame(*of->ranges, asset->limits, settings, bodyCount(),
-                                      featurePlan->groupSize, frame.pace.mostParticleSteps());
+    const DispatchRoom room{asset->limits, featurePlan->groupSize, frame.pace.mostParticleSteps()};
+    const auto dispatches = planFrame(*of->ranges, room, settings, bodyCount());
     if (!dispatches) return dispatches.error();
     dispatchAll(frame, *of, *dispatches);
   }
@@ -108,8 +108,8 @@ Status Simulation::Implementation::recordSolve(FrameRecording& frame, const Plan
   for (const StrandKernels* of :
        {stage.withoutBodies ? &kernels.firstSolve : &kernels.strands, &kernels.fallen}) {
     const std::size_t bodies = of == &kernels.firstSolve ? 0 : bodyCount();
-    auto dispatches = planPass(*of->ranges, asset->limits, settings, bodies, featurePlan->groupSize,
-                               stage.pass, frame.pace.mostParticleSteps());
+    const DispatchRoom room{asset->limits, featurePlan->groupSize, frame.pace.mostParticleSteps()};
+    auto dispatches = planPass(*of->ranges, room, settings, bodies, stage.pass);
     if (!dispatches) return dispatches.error();
     if (stage.strands != StrandsOf::all) {
       const bool isBorder = stage.strands == StrandsOf::border;

@@ -36,7 +36,7 @@ Status Simulation::Implementation::checkChange(const Settings& wanted) const {
         wanted.stepsPerFrame, 1 / wanted.stepSeconds(), built.stepsPerFrame, 1 / built.stepSeconds())};
   }
   const auto plan =
-      planFrame(featurePlan->ranges, asset->limits, wanted, bodyCount(), featurePlan->groupSize);
+      planFrame(featurePlan->ranges, {asset->limits, featurePlan->groupSize}, wanted, bodyCount());
   return plan ? Status{} : plan.error();
 }
 
@@ -77,7 +77,7 @@ Status Simulation::Implementation::change(const Material& wanted) {
 
 Status Simulation::Implementation::change(std::span<const Body> bodies, std::span<const BodyPose> places) {
   const auto plan =
-      planFrame(featurePlan->ranges, asset->limits, settings, bodies.size(), featurePlan->groupSize);
+      planFrame(featurePlan->ranges, {asset->limits, featurePlan->groupSize}, settings, bodies.size());
   if (!plan) return plan.error();
   if (Status status = finishFrames(); !status) return status;
   auto made = BodiesInput::create(inputSource(), bodies, places, head().now);

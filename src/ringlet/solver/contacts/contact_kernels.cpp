@@ -51,21 +51,19 @@ const Compiled& compiledOf(ContactKernel which, ContactTaper taper) {
 
 }  // namespace
 
-gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper taper, bool inGroups,
-                                             std::uint32_t groupSize, bool texels, bool forGpu,
-                                             bool divided) {
-  const Compiled& compiled = compiledOf(which, taper);
+gpu::KernelDescription describeContactKernel(ContactKernel which, const ContactKernelForm& form) {
+  const Compiled& compiled = compiledOf(which, form.taper);
   gpu::KernelDescription description;
   description.name = compiled.name;
   description.spirv = compiled.spirv;
   description.remedy = "take another device, or leave out contacts";
   description.pushConstantBytes = sizeof(layout::ContactParameters);
-  description.constants = {{layout::kSpecGroupSize, groupSize},
-                           {layout::kSpecTexels, texels ? 1u : 0u},
-                           {layout::kSpecInGroups, inGroups ? 1u : 0u},
-                           {layout::kSpecDivided, divided ? 1u : 0u},
-                           {layout::kSpecForGpu, forGpu ? 1u : 0u}};
-  description.groupSize = groupSize;
+  description.constants = {{layout::kSpecGroupSize, form.groupSize},
+                           {layout::kSpecTexels, form.texels ? 1u : 0u},
+                           {layout::kSpecInGroups, form.inGroups ? 1u : 0u},
+                           {layout::kSpecDivided, form.divided ? 1u : 0u},
+                           {layout::kSpecForGpu, form.forGpu ? 1u : 0u}};
+  description.groupSize = form.groupSize;
   return description;
 }
 

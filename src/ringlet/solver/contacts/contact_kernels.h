@@ -35,11 +35,15 @@ constexpr std::size_t contactKernelCount(ContactTaper taper) {
 /// Invocations per workgroup.
 inline constexpr std::uint32_t kContactGroupSize = 64;
 
-/// inGroups: some strands are in contact as a volume and not pair by pair (VolumeStrands); texels: records
-/// are read as texels (gpu::BindingKind); forGpu: the form for GPUs; divided: other devices step some of the
-/// strands.
-gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper taper, bool inGroups,
-                                             std::uint32_t groupSize, bool texels, bool forGpu,
-                                             bool divided = false);
+struct ContactKernelForm {
+  ContactTaper taper = ContactTaper::distance;
+  std::uint32_t groupSize = kContactGroupSize;
+  bool inGroups = false;  // some strands do not meet pair by pair, see VolumeStrands
+  bool texels = false;    // records are read as texels (gpu::BindingKind)
+  bool forGpu = false;    // the form for GPUs
+  bool divided = false;   // other devices step some of the strands
+};
+
+gpu::KernelDescription describeContactKernel(ContactKernel which, const ContactKernelForm& form);
 
 }  // namespace ringlet

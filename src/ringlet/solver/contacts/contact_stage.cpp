@@ -111,55 +111,9 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   }
   self.bucketCount_ =
       static_cast<std::uint32_t>(std::bit_ceil(std::max<std::uint64_t>(2 * count, layout::kBucketBlock)));
-  const bool texels = isSeenAsTexels(device, kLeastTexelBytes);
-  self.largestList_ = device.properties().maxStorageBufferRange;
-  if (texels) {
-    const std::uint64_t seen = device.properties().maxTexelRecords * sizeof(layout::vec4);
-    self.largestList_ = std::min(self.largestList_, seen);
-  }
-  for (std::size_t k = 0; k < contactKernelCount(self.settings_.taper); ++k) {
-    const auto description =
-        describeContactKernel(static_cast<ContactKernel>(k), self.settings_.taper, inGroups,
-                              kContactGroupSize, texels, !device.properties().isCpu, divided);
-    if (!gpu::Kernel::isCompiled(device, description)) self.newKernels_.push_back(k);
-    auto kernel = gpu::Kernel::create(device, description);
-    if (!kernel) return kernel.error();
-    self.kernels_.push_back(std::move(*kernel));
-  }
-
-  const auto table = neighbourTable(contacts.graph, contacts.volume, rest.haloCount);
-  const std::uint64_t gridWords =
-      (inGroups ? 4 : 2) * self.bucketCount_ + 1 + self.bucketCount_ / layout::kBucketBlock + 1 + 3 * count;
-  const std::uint64_t needed =
-      count * (sizeof(layout::ContactRest) + sizeof(layout::ContactPlace) + sizeof(layout::ContactHistory)) +
-      gridWords * sizeof(std::uint32_t) + table.size() * sizeof(table[0]) +
-      rest.points.size() * (sizeof(std::uint32_t) + sizeof(layout::vec4));
-  if (Status status = checkMemory(fmt::format("the contacts of {} particles", count), needed,
-                                  gpu::availableStorageBytes(device));
-      !status)
-    return status.error();
-
-  auto rests = createFilled(device, contactRests(rest, settings, particles), "contacts");
-  if (!rests) return rests.error();
-  auto neighbours = createFilled(device, table, "neighbours");
-  if (!neighbours) return neighbours.error();
-  auto indices = createFilled(device, contactIndices(rest, particles), "contact indices");
-  if (!indices) return indices.error();
-  auto grid = createZero(device, gridWords * sizeof(std::uint32_t), "contact grid");
-  if (!grid) return grid.error();
-  auto places = createZero(device, count * sizeof(layout::ContactPlace), "contact places");
-  if (!places) return places.error();
-  auto histories = createZero(device, count * sizeof(layout::ContactHistory), "contact histories");
-  if (!histories) return histories.error();
-  auto guesses = createZero(device, rest.points.size() * sizeof(layout::vec4), "contact guesses");
-  if (!guesses) return guesses.error();
-  auto sampled = createFilled(device, samples.list, "contacts of samples");
-  if (!sampled) return sampled.error();
-  auto numbers = createZero(device, sizeof(layout::ContactNumbers), "contact numbers");
-  if (!numbers) return numbers.error();
-  self.buffers_.emplace(Buffers{std::move(*rests), std::move(*neighbours), std::move(*indices),
-                                std::move(*grid), std::move(*places), std::move(*histories),
-                                std::move(*guesses), std::move(*sampled), std::move(*numbers)});
+  if (Status made = self.makeKernels(device, inGroups); !made) return made.error();
+  if (Status made = self.makeBuffers(device, rest, settings, contacts, samples.list); !made)
+    return made.error();
   self.near_ = ListRoom{static_cast<std::uint32_t>(count), kFirstMostNearBlocks}.times(room);
   if (self.settings_.taper == ContactTaper::time) {
     auto lives = ContactLives::create(self.listMaker(), room);
@@ -169,6 +123,67 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   if (Status status = self.createLists(); !status) return status.error();
   if (Status status = self.bindLists(); !status) return status.error();
   return self;
+}
+
+Status ContactStage::makeKernels(gpu::Device& device, bool inGroups) {
+  const bool texels = isSeenAsTexels(device, kLeastTexelBytes);
+  largestList_ = device.properties().maxStorageBufferRange;
+  if (texels) {
+    const std::uint64_t seen = device.properties().maxTexelRecords * sizeof(layout::vec4);
+    largestList_ = std::min(largestList_, seen);
+  }
+  const ContactKernelForm form{.taper = settings_.taper,
+                               .inGroups = inGroups,
+                               .texels = texels,
+                               .forGpu = !device.properties().isCpu,
+                               .divided = isDivided_};
+  for (std::size_t k = 0; k < contactKernelCount(settings_.taper); ++k) {
+    const auto description = describeContactKernel(static_cast<ContactKernel>(k), form);
+    if (!gpu::Kernel::isCompiled(device, description)) newKernels_.push_back(k);
+    auto kernel = gpu::Kernel::create(device, description);
+    if (!kernel) return kernel.error();
+    kernels_.push_back(std::move(*kernel));
+  }
+  return {};
+}
+
+Status ContactStage::makeBuffers(gpu::Device& device, const RestState& rest, const Settings& settings,
+                                 const RestContacts& contacts, const std::vector<std::uint32_t>& ofSamples) {
+  const std::uint64_t count = particles_.size();
+  const auto table = neighbourTable(contacts.graph, contacts.volume, rest.haloCount);
+  const std::uint64_t gridWords = (contacts.volume.hasGroups() ? 4 : 2) * bucketCount_ + 1 +
+                                  bucketCount_ / layout::kBucketBlock + 1 + 3 * count;
+  const std::uint64_t needed =
+      count * (sizeof(layout::ContactRest) + sizeof(layout::ContactPlace) + sizeof(layout::ContactHistory)) +
+      gridWords * sizeof(std::uint32_t) + table.size() * sizeof(table[0]) +
+      rest.points.size() * (sizeof(std::uint32_t) + sizeof(layout::vec4));
+  if (Status status = checkMemory(fmt::format("the contacts of {} particles", count), needed,
+                                  gpu::availableStorageBytes(device));
+      !status)
+    return status.error();
+
+  auto rests = createFilled(device, contactRests(rest, settings, contacts.particles), "contacts");
+  if (!rests) return rests.error();
+  auto neighbours = createFilled(device, table, "neighbours");
+  if (!neighbours) return neighbours.error();
+  auto indices = createFilled(device, contactIndices(rest, contacts.particles), "contact indices");
+  if (!indices) return indices.error();
+  auto grid = createZero(device, gridWords * sizeof(std::uint32_t), "contact grid");
+  if (!grid) return grid.error();
+  auto places = createZero(device, count * sizeof(layout::ContactPlace), "contact places");
+  if (!places) return places.error();
+  auto histories = createZero(device, count * sizeof(layout::ContactHistory), "contact histories");
+  if (!histories) return histories.error();
+  auto guesses = createZero(device, rest.points.size() * sizeof(layout::vec4), "contact guesses");
+  if (!guesses) return guesses.error();
+  auto sampled = createFilled(device, ofSamples, "contacts of samples");
+  if (!sampled) return sampled.error();
+  auto numbers = createZero(device, sizeof(layout::ContactNumbers), "contact numbers");
+  if (!numbers) return numbers.error();
+  buffers_.emplace(Buffers{std::move(*rests), std::move(*neighbours), std::move(*indices), std::move(*grid),
+                           std::move(*places), std::move(*histories), std::move(*guesses),
+                           std::move(*sampled), std::move(*numbers)});
+  return {};
 }
 
 std::uint64_t ContactStage::bytes() const {

@@ -108,6 +108,9 @@ class ContactStage {
     gpu::Buffer contacts, neighbours, indices, grid, places, histories, guesses, sampled, numbers;
   };
   ContactStage() = default;
+  Status makeKernels(gpu::Device& device, bool inGroups);
+  Status makeBuffers(gpu::Device& device, const RestState& rest, const Settings& settings,
+                     const RestContacts& contacts, const std::vector<std::uint32_t>& ofSamples);
   using EachBlock =
       std::function<void(std::size_t c, std::uint32_t block, std::uint32_t count, std::uint32_t bits)>;
   Status eachBlock(const EachBlock& tell) const;

@@ -66,16 +66,25 @@ std::uint32_t groupsOf(std::uint64_t particles) {
 
 }  // namespace
 
+std::uint64_t VolumeStage::cellWords() const {
+  const std::uint64_t capacity = numbers_.cellCapacity;
+  return 2 * capacity + capacity / layout::kBucketBlock + 2 * std::uint64_t{numbers_.count};
+}
+
+std::uint64_t VolumeStage::sumBytes() const {
+  const std::uint64_t numbersOfNode = kSumsOfNode + kDensitiesOfNode;
+  return isDivided_ ? numbersOfNode * numbers_.cellCapacity * sizeof(std::int32_t) : 0;
+}
+
 Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& rest, const Settings& settings,
-                                        const RestVolume& volume, bool divided, DeviceGroom& groom,
-                                        const gpu::Buffer& poses, double range) {
+                                        const RestVolume& volume, const VolumeHair& hair) {
   VolumeStage self;
-  self.isDivided_ = divided;
+  self.isDivided_ = hair.isDivided;
   self.largestMass_ = volume.largestMass;
   self.longestStrand_ = volume.longestStrand;
-  self.range_ = range;
-  self.groom_ = &groom;
-  self.poses_ = &poses;
+  self.range_ = hair.range;
+  self.groom_ = &hair.groom;
+  self.poses_ = &hair.poses;
   self.densities_ = volume.densities;
   const std::uint64_t count = volume.particles.size();
   const std::uint32_t capacity = cellCapacity(volume.cells);
@@ -89,58 +98,17 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
         "off, or take a smaller groom",
         count, std::uint64_t{device.properties().maxGroupCount} * kVolumeGroupSize)};
   }
-  const std::uint64_t cellWords = 2 * std::uint64_t{capacity} + capacity / layout::kBucketBlock + 2 * count;
-  const std::uint64_t sumBytes =
-      divided ? (kSumsOfNode + kDensitiesOfNode) * capacity * sizeof(std::int32_t) : 0;
   const std::uint64_t perParticle = sizeof(layout::VolumeParticle) + sizeof(layout::VolumeState) +
                                     2 * sizeof(layout::vec4) + sizeof(layout::VolumeParcel);
-  const std::uint64_t needed =
-      count * perParticle + cellWords * sizeof(std::uint32_t) + capacity * sizeof(layout::vec4) + sumBytes;
+  const std::uint64_t needed = count * perParticle + self.cellWords() * sizeof(std::uint32_t) +
+                               capacity * sizeof(layout::vec4) + self.sumBytes();
   if (Status status = checkMemory(fmt::format("{} particles as a volume", count), needed,
                                   gpu::availableStorageBytes(device));
       !status)
     return status.error();
 
-  const std::uint64_t largest =
-      std::max({groom.largestTexels(), count * sizeof(layout::VolumeState), capacity * sizeof(layout::vec4),
-                cellWords * sizeof(std::uint32_t)});
-  const bool texels = isSeenAsTexels(device, std::max(largest, kLeastTexelBytes));
-  for (std::size_t k = 0; k < kVolumeKernelCount; ++k) {
-    const auto description =
-        describeVolumeKernel(static_cast<VolumeKernel>(k), texels, !device.properties().isCpu, divided);
-    if (!gpu::Kernel::isCompiled(device, description)) self.newKernels_.push_back(k);
-    auto kernel = gpu::Kernel::create(device, description);
-    if (!kernel) return kernel.error();
-    self.kernels_.push_back(std::move(*kernel));
-  }
-
-  auto particles = createFilled(device, volumeParticles(rest, settings, volume), "volume particles");
-  if (!particles) return particles.error();
-  auto states = createFilled(device, unknownStates(volume.densities), "volume states");
-  if (!states) return states.error();
-  auto brought = createZero(device, count * sizeof(layout::vec4), "volume brought");
-  if (!brought) return brought.error();
-  auto sums = gpu::Buffer::create(device, sumBytes, gpu::BufferKind::stream, "volume sums");
-  if (!sums) return sums.error();
-  auto located = createZero(device, count * sizeof(layout::vec4), "volume located");
-  if (!located) return located.error();
-  auto cells = createZero(device, cellWords * sizeof(std::uint32_t), "volume cells");
-  if (!cells) return cells.error();
-  auto parcels = createZero(device, count * sizeof(layout::VolumeParcel), "volume parcels");
-  if (!parcels) return parcels.error();
-  auto nodes = createZero(device, capacity * sizeof(layout::vec4), "volume nodes");
-  if (!nodes) return nodes.error();
-  auto control = createZero(device, sizeof(layout::VolumeControl), "volume control");
-  if (!control) return control.error();
-  auto controlRead = gpu::Buffer::create(device, sizeof(layout::VolumeControl), gpu::BufferKind::stream,
-                                         "volume control read back");
-  if (!controlRead) return controlRead.error();
-  auto numbers = createZero(device, sizeof(layout::VolumeNumbers), "volume numbers");
-  if (!numbers) return numbers.error();
-  self.buffers_.emplace(Buffers{std::move(*particles), std::move(*states), std::move(*brought),
-                                std::move(*cells), std::move(*parcels), std::move(*nodes),
-                                std::move(*control), std::move(*located), std::move(*sums),
-                                std::move(*controlRead), std::move(*numbers)});
+  if (Status made = self.makeKernels(device); !made) return made.error();
+  if (Status made = self.makeBuffers(device, rest, settings, volume); !made) return made.error();
   if (Status status = self.setSettings(settings); !status) return status.error();
   if (Status status = self.forget(); !status) return status.error();
   for (const auto& kernel : self.kernels_) {
@@ -149,6 +117,54 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
     self.bindings_.push_back(std::move(*bindings));
   }
   return self;
+}
+
+Status VolumeStage::makeKernels(gpu::Device& device) {
+  const std::uint64_t largest =
+      std::max({groom_->largestTexels(), numbers_.count * sizeof(layout::VolumeState),
+                numbers_.cellCapacity * sizeof(layout::vec4), cellWords() * sizeof(std::uint32_t)});
+  const bool texels = isSeenAsTexels(device, std::max(largest, kLeastTexelBytes));
+  for (std::size_t k = 0; k < kVolumeKernelCount; ++k) {
+    const auto description =
+        describeVolumeKernel(static_cast<VolumeKernel>(k), texels, !device.properties().isCpu, isDivided_);
+    if (!gpu::Kernel::isCompiled(device, description)) newKernels_.push_back(k);
+    auto kernel = gpu::Kernel::create(device, description);
+    if (!kernel) return kernel.error();
+    kernels_.push_back(std::move(*kernel));
+  }
+  return {};
+}
+
+Status VolumeStage::makeBuffers(gpu::Device& device, const RestState& rest, const Settings& settings,
+                                const RestVolume& volume) {
+  const std::uint64_t count = numbers_.count;
+  auto particles = createFilled(device, volumeParticles(rest, settings, volume), "volume particles");
+  if (!particles) return particles.error();
+  auto states = createFilled(device, unknownStates(volume.densities), "volume states");
+  if (!states) return states.error();
+  auto brought = createZero(device, count * sizeof(layout::vec4), "volume brought");
+  if (!brought) return brought.error();
+  auto sums = gpu::Buffer::create(device, sumBytes(), gpu::BufferKind::stream, "volume sums");
+  if (!sums) return sums.error();
+  auto located = createZero(device, count * sizeof(layout::vec4), "volume located");
+  if (!located) return located.error();
+  auto cells = createZero(device, cellWords() * sizeof(std::uint32_t), "volume cells");
+  if (!cells) return cells.error();
+  auto parcels = createZero(device, count * sizeof(layout::VolumeParcel), "volume parcels");
+  if (!parcels) return parcels.error();
+  auto nodes = createZero(device, numbers_.cellCapacity * sizeof(layout::vec4), "volume nodes");
+  if (!nodes) return nodes.error();
+  auto control = createZero(device, sizeof(layout::VolumeControl), "volume control");
+  if (!control) return control.error();
+  auto controlRead = gpu::Buffer::create(device, sizeof(layout::VolumeControl), gpu::BufferKind::stream,
+                                         "volume control read back");
+  if (!controlRead) return controlRead.error();
+  auto numbers = createZero(device, sizeof(layout::VolumeNumbers), "volume numbers");
+  if (!numbers) return numbers.error();
+  buffers_.emplace(Buffers{std::move(*particles), std::move(*states), std::move(*brought), std::move(*cells),
+                           std::move(*parcels), std::move(*nodes), std::move(*control), std::move(*located),
+                           std::move(*sums), std::move(*controlRead), std::move(*numbers)});
+  return {};
 }
 
 std::uint64_t VolumeStage::bytes() const {

@@ -38,14 +38,20 @@ struct VolumeReach {
   double largest = 0, coarsest = 0;
 };
 
+/// What hair as a volume is part of: a groom of one chunk and the buffer of the head's poses (HeadInput),
+/// which must live as long as the stage, in one place.
+struct VolumeHair {
+  DeviceGroom& groom;
+  const gpu::Buffer& poses;
+  bool isDivided = false;  // other devices step other strands of the volume, which RestVolume lacks
+  double range = 1;        // as KernelChoice::volumeRange
+};
+
 class VolumeStage {
  public:
-  /// Fails, with the numbers and what to do, where the device lacks memory. `groom` has one chunk; it and the
-  /// buffer of the head's poses (HeadInput) must outlive this and must not move. divided: other devices step
-  /// other strands of the volume, which `volume` does not contain. range: as KernelChoice::volumeRange.
+  /// Fails, with the numbers and what to do, where the device lacks memory.
   static Result<VolumeStage> create(gpu::Device& device, const RestState& rest, const Settings& settings,
-                                    const RestVolume& volume, bool divided, DeviceGroom& groom,
-                                    const gpu::Buffer& poses, double range);
+                                    const RestVolume& volume, const VolumeHair& hair);
 
   /// Number of kernels that no other simulation on this device had made before.
   std::size_t newKernelCount() const { return newKernels_.size(); }
@@ -104,6 +110,11 @@ class VolumeStage {
         numbers;
   };
   VolumeStage() = default;
+  Status makeKernels(gpu::Device& device);
+  Status makeBuffers(gpu::Device& device, const RestState& rest, const Settings& settings,
+                     const RestVolume& volume);
+  std::uint64_t cellWords() const;
+  std::uint64_t sumBytes() const;
   layout::VolumeParameters parameters(std::uint32_t step) const;
   void dispatch(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step, std::uint32_t groups) const;
   void dispatchParticles(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step) const;

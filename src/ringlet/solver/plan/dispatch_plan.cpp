@@ -94,18 +94,17 @@ Result<std::vector<PlannedDispatch>> planSteps(const StrandRange& range, const D
 // Cuts the pieces of a range into dispatches of as many strands as maxGroupCount and `mostParticleSteps`
 // allow.
 void spreadOverGroups(std::vector<PlannedDispatch>& plan, const StrandRange& range, std::uint32_t index,
-                      const DeviceLimits& limits, std::uint32_t groupSize,
-                      std::span<const PlannedDispatch> pieces, std::uint64_t mostParticleSteps) {
-  const std::uint32_t strandsPerGroup = groupSize / range.shape.lanes;
-  const std::uint64_t groups = mostParticleSteps / (std::uint64_t{strandsPerGroup} * range.longest);
+                      const DispatchRoom& room, std::span<const PlannedDispatch> pieces) {
+  const std::uint32_t strandsPerGroup = room.groupSize / range.shape.lanes;
+  const std::uint64_t groups = room.mostParticleSteps / (std::uint64_t{strandsPerGroup} * range.longest);
   const std::uint64_t strandsAtOnce =
-      strandsPerGroup * std::clamp<std::uint64_t>(groups, 1, limits.maxGroupCount);
+      strandsPerGroup * std::clamp<std::uint64_t>(groups, 1, room.limits.maxGroupCount);
   for (std::uint64_t begin = range.begin; begin < range.end; begin += strandsAtOnce) {
     for (PlannedDispatch piece : pieces) {
       piece.range = index;
       piece.strandBegin = static_cast<std::uint32_t>(begin);
       piece.strandEnd = static_cast<std::uint32_t>(std::min<std::uint64_t>(range.end, begin + strandsAtOnce));
-      piece.groupCount = groupCountOf(piece, range.shape, groupSize);
+      piece.groupCount = groupCountOf(piece, range.shape, room.groupSize);
       plan.push_back(piece);
     }
   }
@@ -128,33 +127,31 @@ bool sharesStrands(const PlannedDispatch& a, const PlannedDispatch& b) {
   return a.range == b.range && a.strandBegin < b.strandEnd && b.strandBegin < a.strandEnd;
 }
 
-Result<std::vector<PlannedDispatch>> planPass(std::span<const StrandRange> ranges, const DeviceLimits& limits,
+Result<std::vector<PlannedDispatch>> planPass(std::span<const StrandRange> ranges, const DispatchRoom& room,
                                               const Settings& settings, std::size_t bodyCount,
-                                              std::uint32_t groupSize, const SolvePass& pass,
-                                              std::uint64_t mostParticleSteps) {
+                                              const SolvePass& pass) {
   std::vector<PlannedDispatch> plan;
   for (std::uint32_t r = 0; r < ranges.size(); ++r) {
     const std::uint64_t turns = 2 * loopCost(ranges[r], settings, bodyCount).step;
-    if (turns > loopBudget(limits)) return tooLong(ranges[r], settings, turns, loopBudget(limits));
-    // A lane keeps no state between solves, so each dispatch computes forces again.
+    const std::uint64_t budget = loopBudget(room.limits);
+    if (turns > budget) return tooLong(ranges[r], settings, turns, budget);
+    // A lane keeps no state between solves and computes forces again.
     const PlannedDispatch piece{
         .stepBegin = pass.step,
         .stepEnd = pass.step + (pass.goesOn ? 2 : 1),
         .phases = (pass.withContacts ? layout::kPhaseContacts : 0u) | (pass.moves ? layout::kPhaseMove : 0u)};
-    spreadOverGroups(plan, ranges[r], r, limits, groupSize, {&piece, 1}, mostParticleSteps);
+    spreadOverGroups(plan, ranges[r], r, room, {&piece, 1});
   }
   return plan;
 }
 
-Result<std::vector<PlannedDispatch>> planFrame(std::span<const StrandRange> ranges,
-                                               const DeviceLimits& limits, const Settings& settings,
-                                               std::size_t bodyCount, std::uint32_t groupSize,
-                                               std::uint64_t mostParticleSteps) {
+Result<std::vector<PlannedDispatch>> planFrame(std::span<const StrandRange> ranges, const DispatchRoom& room,
+                                               const Settings& settings, std::size_t bodyCount) {
   std::vector<PlannedDispatch> plan;
   for (std::uint32_t r = 0; r < ranges.size(); ++r) {
-    auto steps = planSteps(ranges[r], limits, settings, bodyCount, mostParticleSteps);
+    auto steps = planSteps(ranges[r], room.limits, settings, bodyCount, room.mostParticleSteps);
     if (!steps) return steps.error();
-    spreadOverGroups(plan, ranges[r], r, limits, groupSize, *steps, mostParticleSteps);
+    spreadOverGroups(plan, ranges[r], r, room, *steps);
   }
   return plan;
 }

@@ -36,7 +36,15 @@ struct SolvePass {
 /// No limit on a dispatch besides the device's.
 inline constexpr std::uint64_t kAnyParticleSteps = ~std::uint64_t{0};
 
-/// Cost of a dispatch: its strands times the particles of the range's longest strand times its steps.
+/// What a dispatch may be.
+struct DispatchRoom {
+  const DeviceLimits& limits;
+  std::uint32_t groupSize;
+  std::uint64_t mostParticleSteps = kAnyParticleSteps;
+};
+
+/// Particle steps of a dispatch: its strands times the particles of the range's longest strand times its
+/// steps.
 std::uint64_t particleStepsOf(const PlannedDispatch& dispatch, std::span<const StrandRange> ranges);
 
 /// Whether the later of two consecutive dispatches reads the results of the earlier one. If not, they may run
@@ -44,17 +52,14 @@ std::uint64_t particleStepsOf(const PlannedDispatch& dispatch, std::span<const S
 bool sharesStrands(const PlannedDispatch& a, const PlannedDispatch& b);
 
 /// The dispatches of one solve pass, in order, as planFrame's. Fails if a step is too long for the device.
-Result<std::vector<PlannedDispatch>> planPass(std::span<const StrandRange> ranges, const DeviceLimits& limits,
+Result<std::vector<PlannedDispatch>> planPass(std::span<const StrandRange> ranges, const DispatchRoom& room,
                                               const Settings& settings, std::size_t bodyCount,
-                                              std::uint32_t groupSize, const SolvePass& pass,
-                                              std::uint64_t mostParticleSteps = kAnyParticleSteps);
+                                              const SolvePass& pass);
 
 /// The dispatches of one frame, in order; those of one range depend on each other, those of different ranges
-/// do not. None exceeds `mostParticleSteps`, except a single step of one workgroup. Fails where a step cannot
-/// be cut small enough for the device.
-Result<std::vector<PlannedDispatch>> planFrame(std::span<const StrandRange> ranges,
-                                               const DeviceLimits& limits, const Settings& settings,
-                                               std::size_t bodyCount, std::uint32_t groupSize,
-                                               std::uint64_t mostParticleSteps = kAnyParticleSteps);
+/// do not. None has more than `room.mostParticleSteps`, but for one step of a workgroup. Fails where a step
+/// cannot be cut small enough for the device.
+Result<std::vector<PlannedDispatch>> planFrame(std::span<const StrandRange> ranges, const DispatchRoom& room,
+                                               const Settings& settings, std::size_t bodyCount);
 
 }  // namespace ringlet
