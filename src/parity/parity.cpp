@@ -342,6 +342,56 @@ std::vector<ForceField> sampleFields(const Vec3d& about, double seconds) {
   };
 }
 
+namespace {
+
+// After a step, whose taps are kept.
+std::vector<FieldError> fieldErrors(const ParityCase& c, Simulation& simulation, const HairState& found,
+                                    const ReferenceF& expected) {
+  double largestSpeed = 0;
+  for (const auto& v : expected.velocities()) largestSpeed = std::max<double>(largestSpeed, v.norm());
+
+  const auto tap = [&](std::uint32_t field) { return *Diagnostics(simulation).tap(field); };
+  const auto smoothed = tap(layout::kTapSmoothedEdge), core = tap(layout::kTapCoreEdge),
+             frames = tap(layout::kTapFrame), targets = tap(layout::kTapTarget),
+             stretch = tap(layout::kTapStretchForce), bend = tap(layout::kTapBendForce),
+             coreForce = tap(layout::kTapCoreForce), solved = tap(layout::kTapVelocity);
+  Comparison cSmoothed("smoothed edges"), cCore("core edges"), cFrames("frames"), cTargets("targets"),
+      cStretch("stretch forces"), cBend("bend forces"), cCoreForce("core forces"),
+      cSolved("solved velocities"), cPositions("positions"), cVelocities("velocities");
+  for (std::size_t s = 0; s < expected.restStrands().size(); ++s) {
+    const auto& rest = expected.restStrands()[s];
+    const auto& taps = expected.taps()[s];
+    const double edge = rest.meanEdgeLength;
+    const double unit = c.settings.integrator == Integrator::paper ? 1 : c.material.lineDensity * edge;
+    for (std::size_t i = 0; i < rest.particleCount(); ++i) {
+      const std::size_t g = expected.firstPoint()[s] + i;
+      const auto v = [](const auto& x) { return Eigen::VectorXd(x.template cast<double>()); };
+      cPositions.add(s, i, rest.arcLength, v(expected.positions()[g]),
+                     v(reference::toEigen<float>(found.positions[g])));
+      cVelocities.add(s, i, largestSpeed, v(expected.velocities()[g]),
+                      v(reference::toEigen<float>(found.velocities[g])));
+      if (rest.falls()) continue;
+      cSolved.add(s, i, largestSpeed, v(taps.solvedVelocities[i]), three(solved[g]));
+      if (i >= rest.edgeCount()) continue;
+      cSmoothed.add(s, i, edge, v(taps.smoothedEdges[i]), three(smoothed[g]));
+      cCore.add(s, i, edge, v(taps.coreEdges[i]), three(core[g]));
+      cTargets.add(s, i, edge, v(taps.targets[i]), three(targets[g]));
+      const Eigen::Vector4d q = taps.frames[i].coeffs().template cast<double>();
+      const Eigen::Vector4d r(frames[g][0], frames[g][1], frames[g][2], frames[g][3]);
+      cFrames.add(s, i, 1, q * (q.dot(r) < 0 ? -1 : 1), r);  // q and -q are one rotation
+      const double l = rest.edgeLengths[i];
+      cStretch.add(s, i, rest.stretchStiffness[i] * l, v(taps.stretchForces[i]), three(stretch[g], unit));
+      cBend.add(s, i, rest.bendStiffness[i] * l, v(taps.bendForces[i]), three(bend[g], unit));
+      cCoreForce.add(s, i, rest.coreStiffness[i] * l, v(taps.coreForces[i]), three(coreForce[g], unit));
+    }
+  }
+  return {cSmoothed.result(),  cCore.result(),      cFrames.result(),    cTargets.result(),
+          cStretch.result(),   cBend.result(),      cCoreForce.result(), cSolved.result(),
+          cPositions.result(), cVelocities.result()};
+}
+
+}  // namespace
+
 std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c, SimulationReport* report) {
   c.settings.framesPerSecond *= c.settings.stepsPerFrame;
   c.settings.stepsPerFrame = 1;
@@ -387,49 +437,24 @@ std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c,
   for (const auto& places : {goals.first, goals.second}) goals.set(expected, places);
   setSampleFields(expected, c, head.now, 0, T);
   expected.stepFrame(std::span(&head.next, 1), bodyPoses, rootsNext);
+  return fieldErrors(c, *simulation, *found, expected);
+}
 
-  double largestSpeed = 0;
-  for (const auto& v : expected.velocities()) largestSpeed = std::max<double>(largestSpeed, v.norm());
+namespace {
 
-  const auto tap = [&](std::uint32_t field) { return *Diagnostics(*simulation).tap(field); };
-  const auto smoothed = tap(layout::kTapSmoothedEdge), core = tap(layout::kTapCoreEdge),
-             frames = tap(layout::kTapFrame), targets = tap(layout::kTapTarget),
-             stretch = tap(layout::kTapStretchForce), bend = tap(layout::kTapBendForce),
-             coreForce = tap(layout::kTapCoreForce), solved = tap(layout::kTapVelocity);
-  Comparison cSmoothed("smoothed edges"), cCore("core edges"), cFrames("frames"), cTargets("targets"),
-      cStretch("stretch forces"), cBend("bend forces"), cCoreForce("core forces"),
-      cSolved("solved velocities"), cPositions("positions"), cVelocities("velocities");
+FieldError positionsError(const std::vector<Vec3f>& found, const ReferenceD& expected) {
+  Comparison comparison("positions");
   for (std::size_t s = 0; s < expected.restStrands().size(); ++s) {
-    const auto& rest = expected.restStrands()[s];
-    const auto& taps = expected.taps()[s];
-    const double edge = rest.meanEdgeLength;
-    const double unit = c.settings.integrator == Integrator::paper ? 1 : c.material.lineDensity * edge;
-    for (std::size_t i = 0; i < rest.particleCount(); ++i) {
+    for (std::size_t i = 0; i < expected.restStrands()[s].particleCount(); ++i) {
       const std::size_t g = expected.firstPoint()[s] + i;
-      const auto v = [](const auto& x) { return Eigen::VectorXd(x.template cast<double>()); };
-      cPositions.add(s, i, rest.arcLength, v(expected.positions()[g]),
-                     v(reference::toEigen<float>(found->positions[g])));
-      cVelocities.add(s, i, largestSpeed, v(expected.velocities()[g]),
-                      v(reference::toEigen<float>(found->velocities[g])));
-      if (rest.falls()) continue;
-      cSolved.add(s, i, largestSpeed, v(taps.solvedVelocities[i]), three(solved[g]));
-      if (i >= rest.edgeCount()) continue;
-      cSmoothed.add(s, i, edge, v(taps.smoothedEdges[i]), three(smoothed[g]));
-      cCore.add(s, i, edge, v(taps.coreEdges[i]), three(core[g]));
-      cTargets.add(s, i, edge, v(taps.targets[i]), three(targets[g]));
-      const Eigen::Vector4d q = taps.frames[i].coeffs().template cast<double>();
-      const Eigen::Vector4d r(frames[g][0], frames[g][1], frames[g][2], frames[g][3]);
-      cFrames.add(s, i, 1, q * (q.dot(r) < 0 ? -1 : 1), r);  // q and -q are one rotation
-      const double l = rest.edgeLengths[i];
-      cStretch.add(s, i, rest.stretchStiffness[i] * l, v(taps.stretchForces[i]), three(stretch[g], unit));
-      cBend.add(s, i, rest.bendStiffness[i] * l, v(taps.bendForces[i]), three(bend[g], unit));
-      cCoreForce.add(s, i, rest.coreStiffness[i] * l, v(taps.coreForces[i]), three(coreForce[g], unit));
+      comparison.add(s, i, expected.restStrands()[s].arcLength, expected.positions()[g],
+                     reference::toEigen<double>(found[g]));
     }
   }
-  return {cSmoothed.result(),  cCore.result(),      cFrames.result(),    cTargets.result(),
-          cStretch.result(),   cBend.result(),      cCoreForce.result(), cSolved.result(),
-          cPositions.result(), cVelocities.result()};
+  return comparison.result();
 }
+
+}  // namespace
 
 FieldError oneFrameError(const ComputeDevice& device, const ParityCase& c, int frameCount) {
   const auto pose = [&](int k) {
@@ -485,16 +510,7 @@ FieldError oneFrameError(const ComputeDevice& device, const ParityCase& c, int f
   }
   const auto found = simulation->positions();
   if (!found) return failed("positions", found.error());
-
-  Comparison comparison("positions");
-  for (std::size_t s = 0; s < expected.restStrands().size(); ++s) {
-    for (std::size_t i = 0; i < expected.restStrands()[s].particleCount(); ++i) {
-      const std::size_t g = expected.firstPoint()[s] + i;
-      comparison.add(s, i, expected.restStrands()[s].arcLength, expected.positions()[g],
-                     reference::toEigen<double>((*found)[g]));
-    }
-  }
-  return comparison.result();
+  return positionsError(*found, expected);
 }
 
 std::string toText(const std::vector<FieldError>& errors) {

@@ -213,6 +213,32 @@ std::vector<ShapeCost> costsOf(std::span<const TimedShape> timed, std::uint32_t 
   return costs;
 }
 
+Result<Runner> runnerFor(const ComputeDevice& device, const Entry& entry, const TuneOptions& options) {
+  const auto filling = (device.limits().isCpu ? kParticlesOnCpu : kParticlesOnGpu) / entry.particleCount /
+                       (entry.work == TuneWork::alone ? 1 : kFewerAtWork);
+  const auto strandCount = options.strandCount ? static_cast<std::uint32_t>(*options.strandCount) : filling;
+  const EndsUnheard compiling;
+  return Runner::create(device, entry, std::max(strandCount, 1u));
+}
+
+// What the runners measured, and what follows from it.
+void conclude(const std::vector<Runner>& runners, const DeviceLimits& limits, TuneOutcome& outcome) {
+  std::vector<WidthTime> times;
+  for (const Runner& runner : runners) {
+    const TimedShape one = runner.finished(limits);
+    outcome.timed.push_back(one);
+    if (one.work == TuneWork::alone) times.push_back({one.particleCount, one.subgroupSize, one.nanoseconds});
+  }
+  std::ranges::stable_sort(outcome.timed, {}, [](const TimedShape& one) {
+    return std::pair{one.work, one.particleCount};
+  });
+  if (outcome.interrupted || times.empty()) return;
+  outcome.subgroupSize = fastestSubgroupSize(times);
+  const bool isTroubled =
+      std::ranges::find(outcome.troubles, TuneWork::alone, &ShapeTrouble::work) != outcome.troubles.end();
+  if (!isTroubled) outcome.costs = costsOf(outcome.timed, outcome.subgroupSize);
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> typicalLengths(std::vector<std::uint32_t> counts) {
@@ -257,13 +283,7 @@ Result<TuneOutcome> timeShapes(const ComputeDevice& device, const TuneOptions& o
       outcome.leftOut = entries.size() - e;
       break;
     }
-    const auto filling = (limits.isCpu ? kParticlesOnCpu : kParticlesOnGpu) / entry.particleCount /
-                         (entry.work == TuneWork::alone ? 1 : kFewerAtWork);
-    const auto strandCount = options.strandCount ? static_cast<std::uint32_t>(*options.strandCount) : filling;
-    auto runner = [&] {
-      const EndsUnheard compiling;
-      return Runner::create(device, entry, std::max(strandCount, 1u));
-    }();
+    auto runner = runnerFor(device, entry, options);
     if (!runner) {
       outcome.troubles.push_back(troubleOf(entry, runner.error()));
       if (runner.error().fault == Fault::deviceLost) return outcome.troubles.back().error;
@@ -286,21 +306,7 @@ Result<TuneOutcome> timeShapes(const ComputeDevice& device, const TuneOptions& o
     if (Status grew = grow(); !grew) return grew.error();
   }
   outcome.interrupted = wasInterrupted();
-
-  std::vector<WidthTime> times;
-  for (const Runner& runner : runners) {
-    const TimedShape one = runner.finished(limits);
-    outcome.timed.push_back(one);
-    if (one.work == TuneWork::alone) times.push_back({one.particleCount, one.subgroupSize, one.nanoseconds});
-  }
-  std::ranges::stable_sort(outcome.timed, {}, [](const TimedShape& one) {
-    return std::pair{one.work, one.particleCount};
-  });
-  if (outcome.interrupted || times.empty()) return outcome;
-  outcome.subgroupSize = fastestSubgroupSize(times);
-  const bool isTroubled =
-      std::ranges::find(outcome.troubles, TuneWork::alone, &ShapeTrouble::work) != outcome.troubles.end();
-  if (!isTroubled) outcome.costs = costsOf(outcome.timed, outcome.subgroupSize);
+  conclude(runners, limits, outcome);
   return outcome;
 }
 

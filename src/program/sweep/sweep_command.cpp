@@ -172,6 +172,46 @@ int run(TypedSweep& typed) {
   return typed.list ? kExitFine : exitCodeOf(*entries);
 }
 
+void addSweepMachine(CLI::App& command, TypedSweep& typed) {
+  const char* machine = "Machine";
+  addBackendOption(command, typed.backend)->group(machine);
+  addDeviceOption(command, typed.options.device)->group(machine);
+  command
+      .add_flag("--untuned", typed.untuned,
+                "Choose kernels by the built-in model, whatever `ringlet tune` measured")
+      ->group(machine);
+
+  command
+      .add_option(
+          "--jobs", typed.options.jobs,
+          "Runs at a time: one is read, prepared and written while another is stepped (default 2; 1 where "
+          "ms_per_frame is to be of a run by itself)")
+      ->check(wholeBetween(1, 64))
+      ->type_name("N")
+      ->group(machine);
+}
+
+void addSweepOutput(CLI::App& command, TypedSweep& typed) {
+  const char* output = "Output";
+  command
+      .add_flag("--last-only", typed.options.lastOnly,
+                "Of each run only last.obj: no animation and no picture of its own")
+      ->group(output);
+  command.add_flag("--no-sheet", typed.noSheet, "Draw no sheet.png of all runs")->group(output);
+  command
+      .add_flag("--measure", typed.options.measures,
+                "Measure every frame as `ringlet measure` does: some 0.3 us a particle and frame, on the CPU")
+      ->group(output);
+  command
+      .add_flag(
+          "--json-progress", typed.options.tellsProgress,
+          "Print a line of JSON for every frame that is written, as simulate does, with its run, and for "
+          "every run: run, runs, state, seconds, seconds_left")
+      ->group(output);
+  command.add_flag("--json", typed.json, "Print one JSON object instead of the table")->group(output);
+  command.add_flag("--quiet", typed.quiet, "No progress bar and no table")->group(output);
+}
+
 }  // namespace
 
 void addSweepCommand(CLI::App& app, int& exitCode) {
@@ -203,42 +243,8 @@ void addSweepCommand(CLI::App& app, int& exitCode) {
   command->add_flag("--overwrite", options.overwrites, "Run all anew, whatever DIR holds");
   addConfinedOption(*command, typed->reach);
 
-  const char* machine = "Machine";
-  addBackendOption(*command, typed->backend)->group(machine);
-  addDeviceOption(*command, options.device)->group(machine);
-  command
-      ->add_flag("--untuned", typed->untuned,
-                 "Choose kernels by the built-in model, whatever `ringlet tune` measured")
-      ->group(machine);
-
-  command
-      ->add_option(
-          "--jobs", options.jobs,
-          "Runs at a time: one is read, prepared and written while another is stepped (default 2; 1 where "
-          "ms_per_frame is to be of a run by itself)")
-      ->check(wholeBetween(1, 64))
-      ->type_name("N")
-      ->group(machine);
-
-  const char* output = "Output";
-  command
-      ->add_flag("--last-only", options.lastOnly,
-                 "Of each run only last.obj: no animation and no picture of its own")
-      ->group(output);
-  command->add_flag("--no-sheet", typed->noSheet, "Draw no sheet.png of all runs")->group(output);
-  command
-      ->add_flag(
-          "--measure", options.measures,
-          "Measure every frame as `ringlet measure` does: some 0.3 us a particle and frame, on the CPU")
-      ->group(output);
-  command
-      ->add_flag(
-          "--json-progress", options.tellsProgress,
-          "Print a line of JSON for every frame that is written, as simulate does, with its run, and for "
-          "every run: run, runs, state, seconds, seconds_left")
-      ->group(output);
-  command->add_flag("--json", typed->json, "Print one JSON object instead of the table")->group(output);
-  command->add_flag("--quiet", typed->quiet, "No progress bar and no table")->group(output);
+  addSweepMachine(*command, *typed);
+  addSweepOutput(*command, *typed);
   command->callback([typed, &exitCode] { exitCode = run(*typed); });
 }
 

@@ -94,6 +94,17 @@ float pigmentOf(std::uint32_t hair) {
   return static_cast<float>((x ^ x >> 16) >> 8) / 16777216.0f;
 }
 
+std::vector<layout::SolidTriangle> trianglesOf(std::span<const SolidMesh> solids) {
+  std::vector<layout::SolidTriangle> triangles;
+  std::uint32_t first = 0;
+  for (const SolidMesh& solid : solids) {
+    for (const auto& t : solid.triangles)
+      triangles.push_back({.points = {first + t[0], first + t[1], first + t[2]}, .unused = 0});
+    first += static_cast<std::uint32_t>(solid.points.size());
+  }
+  return triangles;
+}
+
 }  // namespace
 
 Result<HairRenderer> HairRenderer::create(gpu::Device& device, const DrawnHairs& hairs,
@@ -128,13 +139,6 @@ Status HairRenderer::makeBuffers(gpu::Device& device, const DrawnHairs& hairs) {
                      .radius = static_cast<float>(hairs.width / 2 *
                                                   (hairs.widthFactors.empty() ? 1 : hairs.widthFactors[h])),
                      .pigment = pigmentOf(h)});
-  std::vector<layout::SolidTriangle> triangles;
-  std::uint32_t first = 0;
-  for (const SolidMesh& solid : solids_) {
-    for (const auto& t : solid.triangles)
-      triangles.push_back({.points = {first + t[0], first + t[1], first + t[2]}, .unused = 0});
-    first += static_cast<std::uint32_t>(solid.points.size());
-  }
 
   const std::uint64_t row = std::uint64_t{8} * size_.side * size_.side * size_.width;
   const std::uint64_t most =
@@ -172,7 +176,7 @@ Status HairRenderer::makeBuffers(gpu::Device& device, const DrawnHairs& hairs) {
       add(room(sizeof(layout::SeenCounts), "counts of what is seen")),
       add(room((std::uint64_t{solidPointCount_} + patchCount_) * sizeof(layout::SolidPoint),
                "points of bodies")),
-      add(filled(triangles, "triangles of bodies")),
+      add(filled(trianglesOf(solids_), "triangles of bodies")),
       add(room(8 * inBand, "pixels of bodies")),
       add(room(8 * inBand, "colours of bodies")),
       add(room(size_.isPreview ? 0 : 16 * pixels, "samples' light")),

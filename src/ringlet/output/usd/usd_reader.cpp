@@ -69,12 +69,45 @@ Result<UsdReader> UsdReader::begin(const std::filesystem::path& path) {
   return reader;
 }
 
-Status UsdReader::readHeader() {
-  // What the file is measured in.
-  std::string upAxis;
-  for (std::string_view token : {"#usda", "1.0", "(", "defaultPrim", "=", "\"Hair\"", "endTimeCode", "="}) {
+Status UsdReader::expectAll(std::initializer_list<std::string_view> tokens) {
+  for (std::string_view token : tokens) {
     if (Status found = expect(token); !found) return found;
   }
+  return {};
+}
+
+Status UsdReader::readHeader() {
+  if (Status read = readMeasures(); !read) return read;
+
+  // The strands.
+  if (Status found = expectAll({")", "def", "BasisCurves", "\"Hair\""}); !found) return found;
+  if (accept("(")) {
+    return Error{
+        fmt::format("{}: is in parts, which are not read together; name one of its clips, {}_clips/*.usdc",
+                    path_.string(), path_.stem().string())};
+  }
+  if (Status found = expectAll({"{", "int[]", "curveVertexCounts", "=", "["}); !found) return found;
+  if (Status read = readCounts(); !read) return read;
+  if (Status read = readWidth(); !read) return read;
+
+  // What may stand between, up to what moves.
+  while (!accept("float3[] extent.timeSamples = {")) {
+    if (accept("matrix4d xformOp:transform.timeSamples = {")) {
+      if (Status read = readHeads(); !read) return read;
+    } else if (Status skipped = skipAttribute(); !skipped) {
+      return skipped;
+    }
+  }
+  if (Status read = readExtents(); !read) return read;
+  if (Status found = expectAll({"point3f[]", "points.timeSamples", "=", "{"}); !found) return found;
+  return {};
+}
+
+// What the file is measured in.
+Status UsdReader::readMeasures() {
+  if (Status found = expectAll({"#usda", "1.0", "(", "defaultPrim", "=", "\"Hair\"", "endTimeCode", "="});
+      !found)
+    return found;
   auto frames = number();
   if (!frames) return frames.error();
   if (!(*frames >= 0 && *frames <= std::numeric_limits<int>::max())) return wanted("a number of frames");
@@ -94,27 +127,17 @@ Status UsdReader::readHeader() {
   }
   firstTimeCode_ = firstTimeCode;
   frameCount_ = static_cast<int>(std::clamp(*frames - firstTimeCode + 1, 0.0, 2e9));
-  for (std::string_view token : {"upAxis", "="}) {
-    if (Status found = expect(token); !found) return found;
-  }
+  if (Status found = expectAll({"upAxis", "="}); !found) return found;
   if (accept("\"Z\"")) {
     up_ = UpAxis::z;
   } else if (Status found = expect("\"Y\""); !found) {
     return found;
   }
+  return {};
+}
 
-  // The strands.
-  for (std::string_view token : {")", "def", "BasisCurves", "\"Hair\""}) {
-    if (Status found = expect(token); !found) return found;
-  }
-  if (accept("(")) {
-    return Error{
-        fmt::format("{}: is in parts, which are not read together; name one of its clips, {}_clips/*.usdc",
-                    path_.string(), path_.stem().string())};
-  }
-  for (std::string_view token : {"{", "int[]", "curveVertexCounts", "=", "["}) {
-    if (Status found = expect(token); !found) return found;
-  }
+// Of the particles of strands.
+Status UsdReader::readCounts() {
   while (!accept("]")) {
     if (!particleCounts_.empty()) {
       if (Status found = expect(","); !found) return found;
@@ -125,10 +148,14 @@ Status UsdReader::readHeader() {
     particleCounts_.push_back(static_cast<std::uint32_t>(*count));
     particleCount_ += particleCounts_.back();
   }
-  for (std::string_view token :
-       {"uniform", "token", "type", "=", "\"linear\"", "float[]", "widths", "=", "["}) {
-    if (Status found = expect(token); !found) return found;
-  }
+  return {};
+}
+
+Status UsdReader::readWidth() {
+  if (Status found =
+          expectAll({"uniform", "token", "type", "=", "\"linear\"", "float[]", "widths", "=", "["});
+      !found)
+    return found;
   auto width = coordinate();
   if (!width) return width.error();
   if (!(*width > 0)) return wanted("a width above 0");
@@ -136,27 +163,11 @@ Status UsdReader::readHeader() {
   while (accept(",")) {
     if (auto other = coordinate(); !other) return other.error();
   }
-  for (std::string_view token : {"]", "(", "interpolation", "=", "\""}) {
-    if (Status found = expect(token); !found) return found;
-  }
+  if (Status found = expectAll({"]", "(", "interpolation", "=", "\""}); !found) return found;
   if (!accept("constant\"") && !accept("uniform\"") && !accept("vertex\""))
     return wanted("'constant', 'uniform' or 'vertex'");
-  for (std::string_view token : {")", "uniform", "token", "wrap", "=", "\"nonperiodic\""}) {
-    if (Status found = expect(token); !found) return found;
-  }
-
-  // What may stand between, up to what moves.
-  while (!accept("float3[] extent.timeSamples = {")) {
-    if (accept("matrix4d xformOp:transform.timeSamples = {")) {
-      if (Status read = readHeads(); !read) return read;
-    } else if (Status skipped = skipAttribute(); !skipped) {
-      return skipped;
-    }
-  }
-  if (Status read = readExtents(); !read) return read;
-  for (std::string_view token : {"point3f[]", "points.timeSamples", "=", "{"}) {
-    if (Status found = expect(token); !found) return found;
-  }
+  if (Status found = expectAll({")", "uniform", "token", "wrap", "=", "\"nonperiodic\""}); !found)
+    return found;
   return {};
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -44,6 +45,10 @@ class UsdReader {
   UsdReader() = default;
   static Result<UsdReader> begin(const std::filesystem::path& path);
   Status readHeader();
+  Status expectAll(std::initializer_list<std::string_view> tokens);
+  Status readMeasures();
+  Status readCounts();
+  Status readWidth();
   Status countFrames();
   Status readEnd();
   Status skipAttribute();
