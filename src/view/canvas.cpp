@@ -148,10 +148,7 @@ Status Canvas::makeImage() {
   info.tiling = VK_IMAGE_TILING_OPTIMAL;
   info.usage =
       VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-  framebuffer_ = {};
-  view_ = {};
-  image_ = {};
-  memory_ = {};
+  framebuffer_ = {}, view_ = {}, image_ = {}, memory_ = {};
   VkImage image = VK_NULL_HANDLE;
   RINGLET_VK_CHECK(vk.vkCreateImage(device_->handle(), &info, nullptr, &image), "make the window's picture");
   image_ = {device_, image};
@@ -195,14 +192,21 @@ Status Canvas::makeImage() {
   if (!readBack) return readBack.error();
   readBack_.emplace(std::move(*readBack));
   size_ = size;
-  change(image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-         VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
-  const VkClearColorValue black{{0, 0, 0, 1}};
-  vk.vkCmdClearColorImage(commands_, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &black, 1, &kWhole);
-  change(image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-         VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
-         VK_ACCESS_TRANSFER_READ_BIT);
+  clear(image);
   return {};
+}
+
+// To black, and to be copied from.
+void Canvas::clear(VkImage image) {
+  change(
+      image, {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0},
+      {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT});
+  const VkClearColorValue black{{0, 0, 0, 1}};
+  device_->vk().vkCmdClearColorImage(commands_, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &black, 1,
+                                     &kWhole);
+  change(image,
+         {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT},
+         {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT});
 }
 
 Status Canvas::begin() {
@@ -237,17 +241,17 @@ Status Canvas::submit(bool isShown) {
   return {};
 }
 
-void Canvas::change(VkImage image, VkImageLayout from, VkImageLayout to, VkPipelineStageFlags fromStage,
-                    VkAccessFlags fromAccess, VkPipelineStageFlags toStage, VkAccessFlags toAccess) {
+void Canvas::change(VkImage image, const Use& before, const Use& after) {
   auto barrier = gpu::zeroed<VkImageMemoryBarrier>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER);
-  barrier.srcAccessMask = fromAccess;
-  barrier.dstAccessMask = toAccess;
-  barrier.oldLayout = from;
-  barrier.newLayout = to;
+  barrier.srcAccessMask = before.access;
+  barrier.dstAccessMask = after.access;
+  barrier.oldLayout = before.layout;
+  barrier.newLayout = after.layout;
   barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
   barrier.image = image;
   barrier.subresourceRange = kWhole;
-  device_->vk().vkCmdPipelineBarrier(commands_, fromStage, toStage, 0, 0, nullptr, 0, nullptr, 1, &barrier);
+  device_->vk().vkCmdPipelineBarrier(commands_, before.stage, after.stage, 0, 0, nullptr, 0, nullptr, 1,
+                                     &barrier);
 }
 
 void Canvas::recordPictures(std::span<const PlacedPicture> pictures) {
@@ -257,8 +261,9 @@ void Canvas::recordPictures(std::span<const PlacedPicture> pictures) {
   drawn.dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT;
   vk.vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0,
                           1, &drawn, 0, nullptr, 0, nullptr);
-  change(image_.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-         VK_PIPELINE_STAGE_TRANSFER_BIT, 0, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
+  change(
+      image_.get(), {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT, 0},
+      {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT});
   for (const PlacedPicture& picture : pictures) {
     VkBufferImageCopy region{};
     region.bufferRowLength = static_cast<std::uint32_t>(picture.width);
@@ -270,10 +275,10 @@ void Canvas::recordPictures(std::span<const PlacedPicture> pictures) {
     vk.vkCmdCopyBufferToImage(commands_, picture.pixels->handle(), image_.get(),
                               VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
   }
-  change(image_.get(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-         VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-         VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
-         VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT);
+  change(image_.get(),
+         {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT},
+         {VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
+          VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT});
 }
 
 void Canvas::recordUi() {
@@ -301,17 +306,18 @@ void Canvas::recordReadBack() {
 }
 
 void Canvas::recordShown(VkImage image) {
-  change(image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-         VK_PIPELINE_STAGE_TRANSFER_BIT, 0, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
+  change(
+      image, {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_TRANSFER_BIT, 0},
+      {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT});
   VkImageBlit region{};
   region.srcSubresource = region.dstSubresource = kLayer;
   region.srcOffsets[1] = {size_.width, size_.height, 1};
   region.dstOffsets[1] = {window_->imageSize().width, window_->imageSize().height, 1};
   device_->vk().vkCmdBlitImage(commands_, image_.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, image,
                                VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_NEAREST);
-  change(image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR,
-         VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT,
-         0);
+  change(image,
+         {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT},
+         {VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, 0});
 }
 
 Status Canvas::show(std::span<const PlacedPicture> pictures, bool wanted) {

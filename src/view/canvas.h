@@ -43,14 +43,19 @@ class Canvas {
   Status makeRenderPass();
   Status startUi();
   Status makeImage();
+  void clear(VkImage image);
   Status begin();
   Status submit(bool isShown);
   void recordPictures(std::span<const PlacedPicture> pictures);
   void recordUi();
   void recordReadBack();
   void recordShown(VkImage image);
-  void change(VkImage image, VkImageLayout from, VkImageLayout to, VkPipelineStageFlags fromStage,
-              VkAccessFlags fromAccess, VkPipelineStageFlags toStage, VkAccessFlags toAccess);
+  struct Use {
+    VkImageLayout layout;
+    VkPipelineStageFlags stage;
+    VkAccessFlags access;
+  };
+  void change(VkImage image, const Use& before, const Use& after);
 
   using OwnedImage = gpu::Owned<VkImage, &VolkDeviceTable::vkDestroyImage>;
   using OwnedMemory = gpu::Owned<VkDeviceMemory, &VolkDeviceTable::vkFreeMemory>;

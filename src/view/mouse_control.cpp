@@ -13,10 +13,8 @@ constexpr double kZoomEach = 0.88;   // of the distance, a notch of the wheel
 
 }  // namespace
 
-void MouseControl::begin(const Mouse& mouse, const MousePicture& picture, std::span<const SolidMesh> solids,
-                         std::span<const SolidPlace> places,
-                         std::span<const std::optional<std::size_t>> bodyOf, const OrbitCamera& camera,
-                         const Session& session) {
+void MouseControl::begin(const Mouse& mouse, const MousePicture& picture, const MouseSolids& solids,
+                         const OrbitCamera& camera, const Session& session) {
   action_ = mouse.control && mouse.left    ? Action::move
             : mouse.control && mouse.right ? Action::turn
             : mouse.left                   ? Action::orbit
@@ -25,19 +23,17 @@ void MouseControl::begin(const Mouse& mouse, const MousePicture& picture, std::s
   const double aspect = static_cast<double>(picture.width) / picture.height;
   const Ray ray =
       camera.rayThrough((mouse.x - picture.left) / picture.width, mouse.y / picture.height, aspect);
-  const auto hit = hitBy(ray, solids, places);
-  body_ = hit ? bodyOf[hit->solid] : std::nullopt;
+  const auto hit = hitBy(ray, solids.solids, solids.places);
+  body_ = hit ? solids.bodyOf[hit->solid] : std::nullopt;
   grip_ = hit ? hit->place : session.head().position;
 }
 
-void MouseControl::update(const Mouse& mouse, const MousePicture& picture, std::span<const SolidMesh> solids,
-                          std::span<const SolidPlace> places,
-                          std::span<const std::optional<std::size_t>> bodyOf, OrbitCamera& camera,
-                          Session& session) {
+void MouseControl::update(const Mouse& mouse, const MousePicture& picture, const MouseSolids& solids,
+                          OrbitCamera& camera, Session& session) {
   if (!mouse.left && !mouse.middle && !mouse.right) {
     action_ = Action::none;
   } else if (action_ == Action::none && mouse.isOverPicture) {
-    begin(mouse, picture, solids, places, bodyOf, camera, session);
+    begin(mouse, picture, solids, camera, session);
   }
   if (mouse.isOverPicture && mouse.wheel != 0) camera.zoom(std::pow(kZoomEach, mouse.wheel));
   if (mouse.movedRight == 0 && mouse.movedDown == 0) return;

@@ -27,20 +27,24 @@ struct MousePicture {
   int width = 1, height = 1;
 };
 
+/// What may be dragged.
+struct MouseSolids {
+  std::span<const SolidMesh> solids;
+  std::span<const SolidPlace> places;
+  std::span<const std::optional<std::size_t>> bodyOf;  // the body of the scene that each is; none: the head's
+};
+
 class MouseControl {
  public:
-  /// `bodyOf`: of each solid, the body of the scene that it is; none: the head's.
-  void update(const Mouse& mouse, const MousePicture& picture, std::span<const SolidMesh> solids,
-              std::span<const SolidPlace> places, std::span<const std::optional<std::size_t>> bodyOf,
-              OrbitCamera& camera, Session& session);
+  void update(const Mouse& mouse, const MousePicture& picture, const MouseSolids& solids, OrbitCamera& camera,
+              Session& session);
 
   /// What is dragged now, for people: "head", "body 2"; empty: nothing.
   std::string dragged() const;
 
  private:
   enum class Action { none, orbit, pan, move, turn };
-  void begin(const Mouse& mouse, const MousePicture& picture, std::span<const SolidMesh> solids,
-             std::span<const SolidPlace> places, std::span<const std::optional<std::size_t>> bodyOf,
+  void begin(const Mouse& mouse, const MousePicture& picture, const MouseSolids& solids,
              const OrbitCamera& camera, const Session& session);
 
   Action action_ = Action::none;

@@ -85,8 +85,6 @@ const Edits& unedited() {
   return edits;
 }
 
-double& componentOf(Vec3d& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
 // Of members that hold, or may hold, a number; a choice by its place; a vector's part.
 template <class Owner>
 class FieldSliders {
@@ -99,6 +97,7 @@ class FieldSliders {
   }
 
  private:
+  static double& componentOf(Vec3d& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
   Slider named(const SettingField<Owner>& field) const {
     Slider slider = namedSlider(table_, field);
     slider.onlyWith = field.onlyWith;

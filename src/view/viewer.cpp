@@ -197,9 +197,10 @@ void Viewer::moveByMouse() {
                     .control = io.KeyCtrl};
   const int pane =
       std::clamp(static_cast<int>(mouse.x) / paneWidth(), 0, static_cast<int>(session_->hairs().size()) - 1);
+  const std::span<const SolidMesh> solids =
+      shown_.bodies ? std::span<const SolidMesh>(plan_.look.solids) : std::span<const SolidMesh>();
   mouse_.update(mouse, {static_cast<double>(pane * paneWidth()), paneWidth(), picture().height},
-                shown_.bodies ? std::span<const SolidMesh>(plan_.look.solids) : std::span<const SolidMesh>(),
-                places(), bodyOf_, *camera_, *session_);
+                {.solids = solids, .places = places(), .bodyOf = bodyOf_}, *camera_, *session_);
 }
 
 // What was asked for, but for pictures, which come last.

@@ -316,12 +316,13 @@ TEST_F(SessionTest, TheMouseTakesTheHeadAndBodiesAlong) {
   MouseControl mouse;
   const auto drag = [&](double x, double y, double right) {
     const std::vector<SolidPlace> places{{session.bodies()[0].position, {}}};
+    const MouseSolids seen{.solids = solids, .places = places, .bodyOf = bodyOf};
     Mouse now{.x = x, .y = y, .left = true, .isOverPicture = true, .control = true};
-    mouse.update(now, picture, solids, places, bodyOf, camera, session);
+    mouse.update(now, picture, seen, camera, session);
     const std::string what = mouse.dragged();
     now.movedRight = right;
-    mouse.update(now, picture, solids, places, bodyOf, camera, session);
-    mouse.update(Mouse{}, picture, solids, places, bodyOf, camera, session);
+    mouse.update(now, picture, seen, camera, session);
+    mouse.update(Mouse{}, picture, seen, camera, session);
     return what;
   };
   const Vec3d before = session.bodies()[0].position;
@@ -381,7 +382,8 @@ TEST_F(SessionTest, PanesDrawTheHairThatIsSimulated) {
 
 // On a scalp that bends, whose head is dragged: the roots are where the solver has them, and hairs follow
 // there.
-TEST_F(SessionTest, HairsOnAScalpStandWhereItHasTheirRoots) {
+// Three strands on a strip that bends.
+Scene stripScene() {
   const auto folder = test::scratchFolder("session_scalp");
   std::ofstream(folder / "strip.glb", std::ios::binary) << test::bendingStrip(8, 5121, 5126).glb();
   std::ofstream obj(folder / "groom.obj");
@@ -393,6 +395,31 @@ TEST_F(SessionTest, HairsOnAScalpStandWhereItHasTheirRoots) {
   scene.file =
       *parseScene("[groom]\nfile = 'groom.obj'\nunit = 1\n[scalp]\nfile = 'strip.glb'\n", "scene", folder);
   scene.loaded = std::move(*loadScene(scene.file));
+  return scene;
+}
+
+// How many of the places have hair, which is far redder than what is behind it, at most a pixel beside
+// them.
+double shareWithHair(const std::vector<Vec3d>& places, const Camera& camera,
+                     const std::vector<std::uint32_t>& pixels) {
+  double count = 0;
+  for (const Vec3d& place : places) {
+    const Vec3d way = place - camera.eye;
+    const double perPixel = -way.z * std::tan(camera.fieldOfView / 2) / 40;
+    const int left = static_cast<int>(60 + way.x / perPixel), top = static_cast<int>(40 - way.y / perPixel);
+    bool isThere = false;
+    for (int y = -1; y <= 1; ++y)
+      for (int x = -1; x <= 1; ++x) {
+        const std::uint32_t p = pixels.at(static_cast<std::size_t>((top + y) * 120 + left + x));
+        isThere = isThere || (p & 255) > (p >> 16 & 255) + 40;
+      }
+    count += isThere;
+  }
+  return count / static_cast<double>(places.size());
+}
+
+TEST_F(SessionTest, HairsOnAScalpStandWhereItHasTheirRoots) {
+  const Scene scene = stripScene();
   const LoadedScene& loaded = *scene.loaded;
   Session session = make(scene);
   session.headDrag.move({0.1, 0.05, 0});
@@ -429,28 +456,10 @@ TEST_F(SessionTest, HairsOnAScalpStandWhereItHasTheirRoots) {
   ASSERT_TRUE(recorder->submitAndWait());
   std::vector<std::uint32_t> pixels(120 * 80);
   ASSERT_TRUE(pane->shown().download(std::as_writable_bytes(std::span(pixels))));
-  // How many of the places have hair, which is far redder than what is behind it, at most a pixel beside
-  // them.
-  const auto shareOf = [&](const std::vector<Vec3d>& places) {
-    double count = 0;
-    for (const Vec3d& place : places) {
-      const Vec3d way = place - camera.eye;
-      const double perPixel = -way.z * std::tan(camera.fieldOfView / 2) / 40;
-      const int left = static_cast<int>(60 + way.x / perPixel), top = static_cast<int>(40 - way.y / perPixel);
-      bool isThere = false;
-      for (int y = -1; y <= 1; ++y)
-        for (int x = -1; x <= 1; ++x) {
-          const std::uint32_t p = pixels.at(static_cast<std::size_t>((top + y) * 120 + left + x));
-          isThere = isThere || (p & 255) > (p >> 16 & 255) + 40;
-        }
-      count += isThere;
-    }
-    return count / static_cast<double>(places.size());
-  };
   std::vector<Vec3d> carried;  // by the head
   for (const Vec3d& root : look.follow->restRoots()) carried.push_back(session.head().position + root);
-  EXPECT_GT(shareOf(roots), 0.9);
-  EXPECT_LT(shareOf(carried), 0.6);
+  EXPECT_GT(shareWithHair(roots, camera, pixels), 0.9);
+  EXPECT_LT(shareWithHair(carried, camera, pixels), 0.6);
 }
 
 }  // namespace
