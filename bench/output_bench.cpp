@@ -48,12 +48,15 @@ double farthestApart(const std::vector<Vec3f>& a, const std::vector<Vec3f>& b) {
   return largest;
 }
 
-void printRow(const char* name, const Times& write, const Times& read, std::uint64_t bytes,
-              const Frames& frames, double apart, double bound) {
-  const double points = static_cast<double>(frames.size()) * static_cast<double>(frames[0].size());
+double pointCount(const Frames& frames) {
+  return static_cast<double>(frames.size()) * static_cast<double>(frames[0].size());
+}
+
+void printRow(const char* name, const Times& write, const Times& read, double bytesOfAPoint, double apart,
+              double bound) {
   fmt::print("{:<16}{:>10.2f} {:>10.2f} {:>10.2f} {:>10.2f} {:>12.2f} {:>12.5f} {:>12.5f}\n", name,
              bench::median(write.wall), bench::median(write.cpu), bench::median(read.wall),
-             bench::median(read.cpu), static_cast<double>(bytes) / points, 1000 * apart, 1000 * bound);
+             bench::median(read.cpu), bytesOfAPoint, 1000 * apart, 1000 * bound);
   std::fflush(stdout);
 }
 
@@ -84,7 +87,8 @@ std::string benchCache(const char* name, const std::filesystem::path& path, cons
     apart = std::max(apart, header.metresPerUnit * farthestApart(points, frames[k]));
   }
   if (apart > reader->errorBound()) return "a frame read back is farther off than the file says";
-  printRow(name, write, read, writer->byteCount(), frames, apart, reader->errorBound());
+  printRow(name, write, read, static_cast<double>(writer->byteCount()) / pointCount(frames), apart,
+           reader->errorBound());
   return "";
 }
 
@@ -108,7 +112,7 @@ std::string benchUsd(const std::filesystem::path& path, const Groom& groom, cons
       return "a frame cannot be read";
     if (farthestApart(points, frame) > 0) return "a frame read back is another";
   }
-  printRow("USD text", write, read, bytes, frames, 0, 0);
+  printRow("USD text", write, read, static_cast<double>(bytes) / pointCount(frames), 0, 0);
   return "";
 }
 

@@ -62,9 +62,12 @@ Status HairPane::attach(gpu::Device& device, const Simulation& hair,
   const std::vector<DevicePositions> parts = hair.devicePositions();
   std::vector<PoseSource> sources;
   for (const DevicePositions& part : parts) sources.push_back({*part.own, part.particles});
-  auto pose =
-      DevicePose::create(device, sources, rest_, firstPoint_, follow_ ? follow_->pose() : strands_->points(),
-                         follow_ ? PoseTag::none : PoseTag::strand, cutBeyond);
+  auto pose = DevicePose::create(device, sources,
+                                 {.rest = rest_,
+                                  .firstPoint = firstPoint_,
+                                  .cutBeyond = cutBeyond,
+                                  .tag = follow_ ? PoseTag::none : PoseTag::strand},
+                                 follow_ ? follow_->pose() : strands_->points());
   if (!pose) return pose.error();
   pose_.emplace(std::move(*pose));
   return {};

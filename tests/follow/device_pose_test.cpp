@@ -92,8 +92,9 @@ TEST_F(DevicePoseTest, GuidesAreThoseThatTheHostHandsOver) {
   ASSERT_TRUE(stage->setPose(std::vector<Vec3d>(moved.rest.size())));
 
   const auto parts = moved.hair->devicePositions();
-  auto pose = DevicePose::create(gpu(), moved.sources(parts), moved.rest, moved.groom.firstPoint,
-                                 stage->pose(), PoseTag::none, cutBeyond);
+  auto pose = DevicePose::create(
+      gpu(), moved.sources(parts),
+      {.rest = moved.rest, .firstPoint = moved.groom.firstPoint, .cutBeyond = cutBeyond}, stage->pose());
   ASSERT_TRUE(pose) << pose.error().message;
   const auto found = run(gpu(), *pose, moved.hair->head().rotation, stage->pose());
   const std::size_t simulated = moved.groom.firstPoint[moved.groom.strandCount() - 1];
@@ -116,8 +117,12 @@ TEST_F(DevicePoseTest, StrandsAreThoseThatTheHostHandsOverInChunksToo) {
     ASSERT_TRUE(strands->setPose(moved.positions, 1, cutBeyond));
     const auto expected = *downloadAll<layout::uvec4>(strands->points(), moved.rest.size());
     ASSERT_TRUE(strands->setPose(std::vector<Vec3f>(moved.rest.size()), 1));
-    auto pose = DevicePose::create(gpu(), moved.sources(parts), moved.rest, moved.groom.firstPoint,
-                                   strands->points(), PoseTag::strand, cutBeyond);
+    auto pose = DevicePose::create(gpu(), moved.sources(parts),
+                                   {.rest = moved.rest,
+                                    .firstPoint = moved.groom.firstPoint,
+                                    .cutBeyond = cutBeyond,
+                                    .tag = PoseTag::strand},
+                                   strands->points());
     ASSERT_TRUE(pose) << pose.error().message;
     const auto found = run(gpu(), *pose, moved.hair->head().rotation, strands->points());
     const std::size_t simulated = moved.groom.firstPoint[moved.groom.strandCount() - 1];
@@ -131,8 +136,9 @@ TEST_F(DevicePoseTest, TheBoxIsAboutAllPoints) {
   const auto parts = moved.hair->devicePositions();
   auto strands = StrandPoints::create(gpu(), moved.groom.firstPoint);
   ASSERT_TRUE(strands);
-  auto pose = DevicePose::create(gpu(), moved.sources(parts), moved.rest, moved.groom.firstPoint,
-                                 strands->points(), PoseTag::strand);
+  auto pose = DevicePose::create(
+      gpu(), moved.sources(parts),
+      {.rest = moved.rest, .firstPoint = moved.groom.firstPoint, .tag = PoseTag::strand}, strands->points());
   ASSERT_TRUE(pose) << pose.error().message;
   Vec3d low{1e9, 1e9, 1e9}, high = low * -1.0;
   for (const Vec3f& p : moved.positions) {

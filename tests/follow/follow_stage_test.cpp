@@ -109,10 +109,18 @@ bool isCutAfter(const Plan& plan, const std::vector<std::uint32_t>& cutBeyond, s
   return false;
 }
 
+// What else hairs follow.
+struct Following {
+  Met met{};
+  std::vector<Vec3d> roots{};
+  std::vector<std::uint32_t> cutBeyond{};
+  bool rootsLast = false;  // by themselves, after the pose
+};
+
 // The points that the device finds, in the order of hairs.
 std::vector<Vec3d> followOn(gpu::Device& device, const Plan& plan, const std::vector<Strand>& pose,
-                            Quatd head, const Met& met = {}, const std::vector<Vec3d>& roots = {},
-                            const std::vector<std::uint32_t>& cutBeyond = {}, bool rootsLast = false) {
+                            Quatd head, const Following& following = {}) {
+  const auto& [met, roots, cutBeyond, rootsLast] = following;
   auto stage = FollowStage::create(device, plan.guides, plan.hairs, met.bodies, !roots.empty());
   EXPECT_TRUE(stage) << stage.error().message;
   stage->setBodies(met.poses);
@@ -277,9 +285,9 @@ TEST_F(FollowStageTest, PiecesOfCutGuidesAreTheReference) {
       }
       first += count;
     }
-    const auto found = followOn(gpu(), plan, pose, kTurned, {}, {}, cutBeyond);
+    const auto found = followOn(gpu(), plan, pose, kTurned, {.cutBeyond = cutBeyond});
     EXPECT_LT(largestDifference(plan, pose, kTurned, found), parity::kFollowMetres);
-    EXPECT_EQ(followOn(**few, plan, pose, kTurned, {}, {}, cutBeyond), found) << "storage for texels";
+    EXPECT_EQ(followOn(**few, plan, pose, kTurned, {.cutBeyond = cutBeyond}), found) << "storage for texels";
   }
 }
 
@@ -316,10 +324,11 @@ TEST_F(FollowStageTest, AmongBodiesItIsTheReference) {
     for (const Met& met : all) {
       SCOPED_TRACE(met.bodies.size() == 1 ? met.bodies.front().name : "all of them");
       SCOPED_TRACE(blend);
-      const auto found = followOn(gpu(), plan, pose, kTurned, met);
+      const auto found = followOn(gpu(), plan, pose, kTurned, {.met = met});
       EXPECT_GT(countOther(found, alone), found.size() / 100) << "the body must press on hair";
       EXPECT_LT(largestDifference(plan, pose, kTurned, found, met), parity::kFollowMetres);
-      EXPECT_EQ(followOn(**few, plan, pose, kTurned, met), found) << "storage buffers in place of texels";
+      EXPECT_EQ(followOn(**few, plan, pose, kTurned, {.met = met}), found)
+          << "storage buffers in place of texels";
     }
   }
 }
@@ -340,11 +349,13 @@ TEST_F(FollowStageTest, RootsOnAScalpAreWhereItHasThem) {
   for (const double blend : {0.0, 1.0}) {
     plan = planOf(guides, 300, blend);
     for (const Met& met : {Met{}, metBy(parity::sampleBodies(), pose)}) {
-      const auto found = followOn(gpu(), plan, pose, kTurned, met, roots);
+      const auto found = followOn(gpu(), plan, pose, kTurned, {.met = met, .roots = roots});
       EXPECT_LT(largestDifference(plan, pose, kTurned, found, met, roots), parity::kFollowMetres);
-      EXPECT_GT(countOther(found, followOn(gpu(), plan, pose, kTurned, met)), found.size() / 20);
-      EXPECT_EQ(followOn(**few, plan, pose, kTurned, met, roots), found) << "storage in place of texels";
-      EXPECT_EQ(followOn(gpu(), plan, pose, kTurned, met, roots, {}, true), found) << "roots by themselves";
+      EXPECT_GT(countOther(found, followOn(gpu(), plan, pose, kTurned, {.met = met})), found.size() / 20);
+      EXPECT_EQ(followOn(**few, plan, pose, kTurned, {.met = met, .roots = roots}), found)
+          << "storage in place of texels";
+      EXPECT_EQ(followOn(gpu(), plan, pose, kTurned, {.met = met, .roots = roots, .rootsLast = true}), found)
+          << "roots by themselves";
       if (!met.bodies.empty()) continue;
       double farthest = 0;
       for (std::size_t h = 0; h < roots.size(); ++h)
@@ -368,7 +379,7 @@ TEST_F(FollowStageTest, BodiesFarFromTheirOriginTurn) {
       const BodyPose ball = met.poses[0];
       met.bodies = {parity::gridBall(0.1, 0.005, way)};  // the same ball
       met.poses = {{ball.position - rotate(rotation, way), rotation}};
-      const auto found = followOn(gpu(), plan, pose, kTurned, met);
+      const auto found = followOn(gpu(), plan, pose, kTurned, {.met = met});
       EXPECT_GT(countOther(found, alone), found.size() / 100) << "the body must press on hair";
       EXPECT_LT(largestDifference(plan, pose, kTurned, found, met), parity::kFollowMetres);
     }
@@ -418,7 +429,7 @@ void runCase(gpu::Device& device, const InputsCase& c) {
     plan.guides[0].pieces = {half};
     cutBeyond = {half - 1};
   }
-  const auto found = followOn(device, plan, pose, c.head, met, roots, cutBeyond);
+  const auto found = followOn(device, plan, pose, c.head, {met, roots, cutBeyond});
   EXPECT_LT(largestDifference(plan, pose, c.head, found, met, roots), parity::kFollowMetres);
 }
 
@@ -464,7 +475,7 @@ TEST_F(FollowStageTest, BodiesAreSeenFromTheOrigin) {
   stage->record(*recorder, Quatd{});
   ASSERT_TRUE(recorder->submitAndWait());
   const auto records = downloadAll<layout::uvec4>(stage->points(), stage->pointCount());
-  const auto expected = followOn(gpu(), plan, guides.strands, Quatd{}, met);
+  const auto expected = followOn(gpu(), plan, guides.strands, Quatd{}, {.met = met});
   for (std::size_t i = 0; i < expected.size(); ++i)
     ASSERT_LT(std::abs(std::bit_cast<float>((*records)[i].x) - expected[i].x), 1e-6) << i;
 }

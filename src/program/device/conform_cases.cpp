@@ -66,9 +66,8 @@ void checkFrame(const ComputeDevice& device, parity::ParityCase c, const std::st
 }
 
 // FNV-1a over the positions after two frames.
-Result<std::uint64_t> hashOfRun(const ComputeDevice& device, const Groom& groom, const Material& material,
-                                const Settings& settings, const KernelChoice& kernel) {
-  auto simulation = Simulation::create(device, groom, material, settings, {}, kernel);
+Result<std::uint64_t> hashOfRun(const ComputeDevice& device, const parity::ParityCase& c) {
+  auto simulation = Simulation::create(device, c.groom, c.material, c.settings, {}, c.kernel);
   if (!simulation) return simulation.error();
   for (int frame = 1; frame <= 2; ++frame) {
     const HeadPose head{{0, 0, 0.03 * std::sin(0.5 * frame)}, fromRotationVector(Vec3d{0, 0.05 * frame, 0})};
@@ -85,15 +84,14 @@ Result<std::uint64_t> hashOfRun(const ComputeDevice& device, const Groom& groom,
   return hash;
 }
 
-// Runs the same hair on two devices, or twice on one, and compares bits.
-void checkSameBits(const ComputeDevice& one, const ComputeDevice& other, const Groom& groom,
-                   const Material& material, const Settings& settings, KernelChoice kernel,
+// The same run on two devices, or twice on one.
+void checkSameBits(const ComputeDevice& one, const ComputeDevice& other, parity::ParityCase c,
                    const std::string& name, const Tell& tell) {
   CompileClock clock;
-  kernel.observer = &clock;
-  const auto first = hashOfRun(one, groom, material, settings, kernel);
+  c.kernel.observer = &clock;
+  const auto first = hashOfRun(one, c);
   if (!first) return tell(failed(name, first.error()));
-  const auto second = hashOfRun(other, groom, material, settings, kernel);
+  const auto second = hashOfRun(other, c);
   if (!second) return tell(failed(name, second.error()));
   const bool isSame = *first == *second;
   tell({.name = name,
@@ -138,18 +136,21 @@ Settings usualSettings() {
   return settings;
 }
 
-// `material` decides whether the kernel for hair alone or another one is used.
-void checkShape(const ConformCases& cases, const StrandShape& shape, const Material& material,
-                const std::string& name, bool withStorage, const Tell& tell,
-                double oneStep = parity::kOneStep) {
-  const parity::ParityCase c{groomOf(shape), material, usualSettings(), kernelOf(shape)};
-  checkStep(cases.device, c, name, oneStep, tell);
-  checkFrame(cases.device, c, name, parity::kOneFrame, tell);
-  checkSameBits(cases.device, cases.device, c.groom, material, c.settings, c.kernel,
-                name + ": the same bits again", tell);
-  if (withStorage)
-    checkSameBits(cases.device, cases.withoutTexels, c.groom, material, c.settings, c.kernel,
-                  name + ": the same bits without texels", tell);
+struct ShapeCase {
+  StrandShape shape;
+  std::string name;
+  Material material{};  // decides whether the shape is asked for by hair alone or by other work
+  bool withStorage = false;
+  double oneStep = parity::kOneStep;
+};
+
+void checkShape(const ConformCases& cases, const ShapeCase& of, const Tell& tell) {
+  const parity::ParityCase c{groomOf(of.shape), of.material, usualSettings(), kernelOf(of.shape)};
+  checkStep(cases.device, c, of.name, of.oneStep, tell);
+  checkFrame(cases.device, c, of.name, parity::kOneFrame, tell);
+  checkSameBits(cases.device, cases.device, c, of.name + ": the same bits again", tell);
+  if (of.withStorage)
+    checkSameBits(cases.device, cases.withoutTexels, c, of.name + ": the same bits without texels", tell);
 }
 
 void checkShapes(const ConformCases& cases, const Tell& tell) {
@@ -162,19 +163,26 @@ void checkShapes(const ConformCases& cases, const Tell& tell) {
     for (const StrandShape& shape : plannedShapes(limits, work, lengths)) {
       if (shape.serial()) continue;  // checked below, whether it is planned or not
       const bool holdsSixtyFour = shape == plannedShapes(limits, work, one).front();
-      checkShape(cases, shape, material,
-                 fmt::format("{}, {}", work == StrandWork::hairAlone ? "hair alone" : "stiffness that varies",
-                             shape.describe()),
-                 work == StrandWork::hairAlone && holdsSixtyFour, tell);
+      const char* hair = work == StrandWork::hairAlone ? "hair alone" : "stiffness that varies";
+      checkShape(cases,
+                 {.shape = shape,
+                  .name = fmt::format("{}, {}", hair, shape.describe()),
+                  .material = material,
+                  .withStorage = work == StrandWork::hairAlone && holdsSixtyFour},
+                 tell);
     }
   }
-  checkShape(cases, serialShape(limits), {}, "hair alone, serial", !cases.quick, tell);
+  checkShape(cases, {.shape = serialShape(limits), .name = "hair alone, serial", .withStorage = !cases.quick},
+             tell);
   if (cases.quick || !limits.hasSubgroupShuffle || limits.subgroupSize == 1) return;
   const StrandShape widest{.lanes = limits.subgroupSize,
                            .particlesPerLane = std::min(48u, limits.longestRunInMemory),
                            .inMemory = true};
-  checkShape(cases, widest, {}, "hair alone, " + widest.describe(), false, tell,
-             parity::oneStepOf(widest.capacity()));
+  checkShape(cases,
+             {.shape = widest,
+              .name = "hair alone, " + widest.describe(),
+              .oneStep = parity::oneStepOf(widest.capacity())},
+             tell);
 }
 
 // `count` random points in a cube of `side` [m].
@@ -223,10 +231,10 @@ void checkContacts(const ConformCases& cases, const Tell& tell) {
   Settings volume = pairs;
   volume.contacts.method = ContactMethod::volume;
   for (const auto& [settings, what] : {std::pair{pairs, "contacts"}, std::pair{volume, "a volume"}}) {
-    checkSameBits(cases.device, cases.device, parity::denseSwatch(32), {}, settings, {},
-                  fmt::format("{}: the same bits again", what), tell);
+    const parity::ParityCase swatch{parity::denseSwatch(32), {}, settings, {}};
+    checkSameBits(cases.device, cases.device, swatch, fmt::format("{}: the same bits again", what), tell);
     if (cases.quick) continue;
-    checkSameBits(cases.device, cases.withoutTexels, parity::denseSwatch(32), {}, settings, {},
+    checkSameBits(cases.device, cases.withoutTexels, swatch,
                   fmt::format("{}: the same bits without texels", what), tell);
     checkMeeting(cases, settings, what, tell);
   }

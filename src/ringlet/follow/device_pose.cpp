@@ -73,18 +73,16 @@ Status DevicePose::addPart(gpu::Device& device, const gpu::Buffer& positions,
 }
 
 Result<DevicePose> DevicePose::create(gpu::Device& device, std::span<const PoseSource> sources,
-                                      std::span<const Vec3d> rest, std::span<const std::uint32_t> firstPoint,
-                                      const gpu::Buffer& target, PoseTag tag,
-                                      std::span<const std::uint32_t> cutBeyond) {
+                                      const PoseStrands& strands, const gpu::Buffer& target) {
   auto bounds = createZero(device, sizeof(layout::PoseBounds), "box about the hair");
   if (!bounds) return bounds.error();
   auto seen = gpu::Buffer::create(device, sizeof(layout::PoseBounds), gpu::BufferKind::stream,
                                   "box about the hair, for the host");
   if (!seen) return seen.error();
   DevicePose self(std::move(*bounds), std::move(*seen));
-  self.pointCount_ = firstPoint.back();
+  self.pointCount_ = strands.firstPoint.back();
   self.target_ = &target;
-  self.tags_ = tagsOf(firstPoint, tag, cutBeyond);
+  self.tags_ = tagsOf(strands.firstPoint, strands.tag, strands.cutBeyond);
 
   std::vector<bool> isSimulated(self.pointCount_, false);
   for (const PoseSource& source : sources)
@@ -94,7 +92,7 @@ Result<DevicePose> DevicePose::create(gpu::Device& device, std::span<const PoseS
   for (std::uint32_t i = 0; i < self.pointCount_; ++i) {
     if (isSimulated[i]) continue;
     carried.push_back(i);
-    carriedPoints.push_back(packed(rest[i]));
+    carriedPoints.push_back(packed(strands.rest[i]));
   }
   auto still = createFilled(device, carriedPoints, "hair that the head carries");
   if (!still) return still.error();

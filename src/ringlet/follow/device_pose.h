@@ -27,15 +27,19 @@ enum class PoseTag {
   strand,  // the strand and whether it ends there or is cut, as DrawnHairs::points has it
 };
 
+/// The strands of a groom.
+struct PoseStrands {
+  std::span<const Vec3d> rest;  // all points [m]; those that no source has are carried by the head
+  std::span<const std::uint32_t> firstPoint;   // of each strand, and one more
+  std::span<const std::uint32_t> cutBeyond{};  // points beyond which strands are cut
+  PoseTag tag = PoseTag::none;
+};
+
 class DevicePose {
  public:
-  /// `rest`: all points of the groom [m]; those of strands that no source has are carried by the head.
-  /// `firstPoint`: of each strand, and one more. `target`: 16 bytes a point, groom order; it lives as long.
-  /// `cutBeyond`: points beyond which strands are cut. Errors: the device lacks memory.
+  /// `target`: 16 bytes a point, groom order; it lives as long. Errors: the device lacks memory.
   static Result<DevicePose> create(gpu::Device& device, std::span<const PoseSource> sources,
-                                   std::span<const Vec3d> rest, std::span<const std::uint32_t> firstPoint,
-                                   const gpu::Buffer& target, PoseTag tag,
-                                   std::span<const std::uint32_t> cutBeyond = {});
+                                   const PoseStrands& strands, const gpu::Buffer& target);
   DevicePose(DevicePose&&) = default;
   DevicePose& operator=(DevicePose&&) = default;
 

@@ -64,8 +64,8 @@ Result<Followers> Followers::create(const ComputeDevice& device, const Simulatio
   const std::vector<DevicePositions> parts = guides.devicePositions();
   std::vector<PoseSource> sources;
   for (const DevicePositions& part : parts) sources.push_back({*part.own, part.particles});
-  auto pose =
-      DevicePose::create(device.gpu(), sources, rest, groom.firstPoint, self->stage.pose(), PoseTag::none);
+  auto pose = DevicePose::create(device.gpu(), sources, {.rest = rest, .firstPoint = groom.firstPoint},
+                                 self->stage.pose());
   if (!pose) return pose.error();
   self->pose.emplace(std::move(*pose));
   return Followers(std::move(self));

@@ -171,7 +171,7 @@ Result<LoadedGroom> readHair(std::span<const std::byte> bytes, const std::filesy
       ++tooShort;
       continue;
     }
-    isKept[s] = addStrandAt(bytes, offset, kPointSize, count, s, groom, leftOut);
+    isKept[s] = addStrandAt(bytes, {offset, kPointSize, count}, s, groom, leftOut);
     offset += kPointSize * std::size_t{count};
   }
   if (groom.strandCount() == 0 && leftOut.count > 0) return Error{fmt::format("{}: {}", name, leftOut.first)};

@@ -9,9 +9,10 @@
 
 namespace ringlet {
 
-bool addStrandAt(std::span<const std::byte> bytes, std::size_t offset, std::size_t stride,
-                 std::uint32_t count, std::size_t strand, Groom& groom, LeftOutStrands& leftOut) {
-  for (std::uint32_t i = 0; i < count; ++i, offset += stride) {
+bool addStrandAt(std::span<const std::byte> bytes, const PointRecords& points, std::size_t strand,
+                 Groom& groom, LeftOutStrands& leftOut) {
+  std::size_t offset = points.offset;
+  for (std::uint32_t i = 0; i < points.count; ++i, offset += points.stride) {
     const Vec3f p{readF32(bytes, offset), readF32(bytes, offset + 4), readF32(bytes, offset + 8)};
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
       leftOut.add(

@@ -11,10 +11,15 @@
 
 namespace ringlet {
 
-/// Adds a strand of `count` points, the first at byte `offset`, each `stride` bytes after the one before; the
-/// caller knows them to be there. One with a point that is not finite is left out, with byte, strand and
-/// point; `strand` is its number in the file. Says whether it was added.
-bool addStrandAt(std::span<const std::byte> bytes, std::size_t offset, std::size_t stride,
-                 std::uint32_t count, std::size_t strand, Groom& groom, LeftOutStrands& leftOut);
+/// The first at byte `offset`, each `stride` bytes after the one before.
+struct PointRecords {
+  std::size_t offset, stride;
+  std::uint32_t count;
+};
+
+/// Adds a strand of points that the caller knows to be there. One with a point that is not finite is left
+/// out, with byte, strand and point; `strand` is its number in the file. Says whether it was added.
+bool addStrandAt(std::span<const std::byte> bytes, const PointRecords& points, std::size_t strand,
+                 Groom& groom, LeftOutStrands& leftOut);
 
 }  // namespace ringlet

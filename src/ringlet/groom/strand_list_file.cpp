@@ -44,7 +44,7 @@ Result<LoadedGroom> readList(std::span<const std::byte> bytes, std::size_t strid
     } else {
       if (count > std::numeric_limits<std::uint32_t>::max() - loaded.groom.points.size())
         return Error{fmt::format("{}: its strands have too many points; at most 2^32 - 1 can be read", name)};
-      addStrandAt(bytes, at, stride, count, s, loaded.groom, leftOut);
+      addStrandAt(bytes, {at, stride, count}, s, loaded.groom, leftOut);
     }
     at += stride * count;
   }

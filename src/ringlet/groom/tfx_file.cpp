@@ -105,7 +105,7 @@ Result<LoadedGroom> readTfx(std::span<const std::byte> bytes, const std::filesys
   std::size_t offset = header->positions;
   LeftOutStrands leftOut;
   for (std::uint32_t s = 0; s < header->strandCount; ++s) {
-    addStrandAt(bytes, offset, kPointSize, header->pointsPerStrand, s, groom, leftOut);
+    addStrandAt(bytes, {offset, kPointSize, header->pointsPerStrand}, s, groom, leftOut);
     offset += kPointSize * std::size_t{header->pointsPerStrand};
   }
 

@@ -32,12 +32,11 @@ UsualHairs usualHairs(std::size_t strands, std::size_t particles) {
 
 Result<PictureHair> PictureHair::create(const ComputeDevice& device, const Groom& rest, const Groom& first,
                                         double metresPerUnit, const PictureHairChoice& choice,
-                                        std::span<const Body> bodies, const HairGround& ground,
-                                        const CutList& cuts) {
+                                        const PictureHairScene& scene) {
   PictureHair self;
   self.metresPerUnit_ = metresPerUnit;
   self.firstOfStrand_ = first.firstPoint;
-  self.cuts_ = cuts;
+  self.cuts_ = scene.cuts;
   const UsualHairs usual = usualHairs(first.strandCount(), first.firstPoint.back());
   const FollowOptions options =
       choice.look.of(choice.hairs ? FollowOptions{.hairCount = *choice.hairs} : usual.options);
@@ -46,10 +45,11 @@ Result<PictureHair> PictureHair::create(const ComputeDevice& device, const Groom
     if (!lines) return lines.error();
     self.lines_.emplace(std::move(*lines));
   } else {
-    auto plan = FollowPlan::make(rest, metresPerUnit, options, ground, cuts);
+    auto plan = FollowPlan::make(rest, metresPerUnit, options, scene.ground, scene.cuts);
     if (!plan) return plan.error();
     if (Status belongs = plan->checkPose(first); !belongs) return belongs.error();
-    auto stage = FollowStage::create(device.gpu(), plan->guides(), plan->hairs(), bodies, plan->isOnScalp());
+    auto stage =
+        FollowStage::create(device.gpu(), plan->guides(), plan->hairs(), scene.bodies, plan->isOnScalp());
     if (!stage) return stage.error();
     self.plan_.emplace(std::move(*plan));
     self.hairs_.emplace(std::move(*stage));

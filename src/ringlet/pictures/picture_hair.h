@@ -26,14 +26,20 @@ struct PictureHairChoice {
   HairLook look;                // of following hairs
 };
 
+/// What a scene has for hairs that follow.
+struct PictureHairScene {
+  std::span<const Body> bodies{};  // that they stay out of
+  HairGround ground{};
+  CutList cuts{};  // of the strands
+};
+
 class PictureHair {
  public:
-  /// `rest`: the strands as groomed, in units of `metresPerUnit`; `first`: the strands in frame 1; `bodies`:
-  /// hairs are kept out of them. Errors: `rest` and `first` do not match; the device has too little memory.
+  /// `rest`: the strands as they were groomed, in units of `metresPerUnit`; `first`: frame 1 of them. Errors:
+  /// the two do not belong together; the device has too little memory.
   static Result<PictureHair> create(const ComputeDevice& device, const Groom& rest, const Groom& first,
                                     double metresPerUnit, const PictureHairChoice& choice,
-                                    std::span<const Body> bodies = {}, const HairGround& ground = {},
-                                    const CutList& cuts = {});
+                                    const PictureHairScene& scene = {});
 
   /// Sets the next pose: the strands' points in their unit, one pose per body, and rootsAt; cuts of strands
   /// up to `frame` are applied. The device must be idle.

@@ -93,8 +93,9 @@ Status Rendering::start(const Groom& first, const CutList& cuts) {
   const auto ground = plan_.scene ? hairGroundOf(*plan_.scene, plan_.hair.look)
                                   : hairGroundOf(plan_.hair.look, subject_.metresPerUnit);
   if (!ground) return ground.error();
+  const std::vector<Body> bodies = plan_.scene ? plan_.scene->bodies : std::vector<Body>();
   auto hair = PictureHair::create(device_, rest_, first, subject_.metresPerUnit, plan_.hair,
-                                  plan_.scene ? plan_.scene->bodies : std::vector<Body>(), *ground, cuts);
+                                  {.bodies = bodies, .ground = *ground, .cuts = cuts});
   if (!hair) return hair.error();
   hair_.emplace(std::move(*hair));
   return {};
@@ -152,8 +153,9 @@ Status Rendering::prepare(PictureFiles& files) {
   if (!renderer) return renderer.error();
   renderer_.emplace(std::move(*renderer));
   if (plan_.colours) {
-    auto colours = StrandColours::create(*plan_.colours, device_, rest_, subject_.metresPerUnit, plan_.scene,
-                                         *hair_, *renderer_);
+    auto colours = StrandColours::create(
+        *plan_.colours, device_,
+        {.rest = rest_, .metresPerUnit = subject_.metresPerUnit, .scene = plan_.scene}, *hair_, *renderer_);
     if (!colours) return colours.error();
     colours_.emplace(std::move(*colours));
   }

@@ -115,8 +115,9 @@ std::vector<Absorption> StrandColours::pigmentsOf(const StrandScale& scale) {
 }
 
 Result<StrandColours> StrandColours::create(const StrandColourChoice& choice, const ComputeDevice& device,
-                                            const Groom& rest, double metresPerUnit, const LoadedScene* scene,
-                                            const PictureHair& hair, HairRenderer& renderer) {
+                                            const ColouredStrands& strands, const PictureHair& hair,
+                                            HairRenderer& renderer) {
+  const auto& [rest, metresPerUnit, scene] = strands;
   StrandColours self;
   self.most_ = choice.most > 0 ? choice.most : 1;
   self.strandOf_ = hair.strandOf();

@@ -46,14 +46,20 @@ struct StrandColourChoice {
   std::filesystem::path against;  // the other animation, for "error"
 };
 
+/// Strands that colours tell something of.
+struct ColouredStrands {
+  const Groom& rest;
+  double metresPerUnit = 0.01;
+  const LoadedScene* scene = nullptr;  // whose material and contacts they have, or null
+};
+
 class StrandColours {
  public:
-  /// `rest`: the strands at rest, with unit `metresPerUnit`; `scene`: gives their material and contacts, or
-  /// null. Buffers of `hair` and `renderer` must outlive this. Errors: the animation to compare with cannot
-  /// be read or has other strands.
+  /// Buffers of `hair` and `renderer` are kept. Errors: the animation to compare with cannot be read or is of
+  /// other strands.
   static Result<StrandColours> create(const StrandColourChoice& choice, const ComputeDevice& device,
-                                      const Groom& rest, double metresPerUnit, const LoadedScene* scene,
-                                      const PictureHair& hair, HairRenderer& renderer);
+                                      const ColouredStrands& strands, const PictureHair& hair,
+                                      HairRenderer& renderer);
 
   /// The pigments between which the scale interpolates.
   static std::vector<Absorption> pigmentsOf(const StrandScale& scale);

@@ -212,26 +212,32 @@ layout::StrandRest strandRest(const Cut& cut, std::span<const Vec3d> coreEdges, 
   return rest;
 }
 
+// One of the groom.
+struct GroomStrand {
+  std::size_t index;
+  std::span<const Vec3f> points;  // [m]
+  const StrandGeometry& geometry;
+};
+
 // Appends one strand to the state, in device order.
-void appendStrand(RestState& state, MaterialExtremes& extremes, std::span<const Vec3f> strand,
-                  const StrandGeometry& geometry, std::size_t groomIndex, const Material& material,
-                  const Settings& settings) {
-  const Cut cut(strand, geometry, material, settings);
+void appendStrand(RestState& state, MaterialExtremes& extremes, const GroomStrand& strand,
+                  const Material& material, const Settings& settings) {
+  const Cut cut(strand.points, strand.geometry, material, settings);
   const StrandConstants& c = cut.constants;
   // The device smooths with float weights, so the rest state must be at rest with exactly these.
   const auto frames = framesBeforeEdges(smoothEdges(cut.edges, static_cast<float>(c.bendBeta)), cut.edges[0]);
   const auto coreEdges = smoothEdges(cut.edges, static_cast<float>(c.coreBeta));
   state.strands.push_back(strandRest(cut, coreEdges, state.points.size(), settings));
   const double load = appendParticles(state, cut, frames, coreEdges, settings);
-  state.points.insert(state.points.end(), strand.begin(), strand.end());
-  state.strandInGroom.push_back(static_cast<std::uint32_t>(groomIndex));
+  state.points.insert(state.points.end(), strand.points.begin(), strand.points.end());
+  state.strandInGroom.push_back(static_cast<std::uint32_t>(strand.index));
 
   if (material.hasEdgeProfiles() && settings.integrator != Integrator::paper) {
     state.edgeFactors.insert(state.edgeFactors.end(), cut.factors.begin(), cut.factors.end());
     state.edgeFactors.push_back(cut.factors.back());  // the last particle has no edge
   }
   const double stiffest = *std::max_element(cut.bendFactors.begin(), cut.bendFactors.end());
-  extremes.add(c, stiffest, load, groomIndex, settings);
+  extremes.add(c, stiffest, load, strand.index, settings);
 }
 
 // The longest step that resolves the motion [s].
@@ -370,8 +376,8 @@ RestState assemble(const Groom& groom, const Material& material, const Settings&
   state.points.reserve(groom.points.size());
   for (std::uint32_t index : order) {
     if (survey.isRigid[index]) continue;
-    const auto strand = inMetres(groom.strand(index), groom.metresPerUnit);
-    appendStrand(state, extremes, strand, survey.geometry[index], index, materialOfStrand(material, index),
+    const auto points = inMetres(groom.strand(index), groom.metresPerUnit);
+    appendStrand(state, extremes, {index, points, survey.geometry[index]}, materialOfStrand(material, index),
                  settings);
     state.firstInGroom.push_back(groom.firstPoint[index]);
   }
