@@ -17,6 +17,7 @@
 #include "ringlet/bodies/head_mesh.h"
 #include "ringlet/rest/rest_state.h"
 #include "tests/motion/gltf_samples.h"
+#include "tests/motion/mesh_motion_samples.h"
 #include "tests/support/test_support.h"
 
 namespace ringlet::load_scene_test {
@@ -132,6 +133,45 @@ TEST(LoadScene, GltfBodiesStandWhateverIsUp) {
     EXPECT_LT(distanceTo(made->bodies[0], up * 0.3), -0.02);
     EXPECT_GT(distanceTo(made->bodies[0], up * -0.1), 0.05);
   }
+}
+
+// A closed box of USD, with a wall beside it: one is named, by name or path, in the file's unit, turned up.
+TEST(LoadScene, UsdBodiesAreNamedMeshes) {
+  const auto folder = test::scratchFolder("load_scene_usd_body");
+  std::vector<Vec3d> corners;
+  for (const double y : {0.0, 40.0})
+    for (const double z : {-5.0, 5.0})
+      for (const double x : {-5.0, 5.0}) corners.push_back({x, y, z});
+  const auto prim = [&](const char* name, double shift) {
+    std::vector<Vec3d> points = corners;
+    for (Vec3d& p : points) p.x += shift;
+    return fmt::format(
+        "def Mesh \"{}\"\n{{\n  point3f[] points = {}\n  int[] faceVertexCounts = [4, 4, 4, 4, 4, 4]\n"
+        "  int[] faceVertexIndices = [0, 1, 3, 2, 4, 6, 7, 5, 0, 4, 5, 1, 2, 3, 7, 6, 0, 2, 6, 4, 1, 5, 7, 3]\n"
+        "  uniform token subdivisionScheme = \"none\"\n}}\n",
+        name, test::usdTuples(points));
+  };
+  std::ofstream(folder / "posts.usda") << "#usda 1.0\n(\n  metersPerUnit = 0.01\n  upAxis = \"Y\"\n)\n"
+                                       << prim("Post", 0) << prim("Wall", 100);
+  const std::string body = "[[body]]\nshape = \"mesh\"\nfile = \"posts.usda\"\n";
+  for (const char* name : {"Post", "/Post", "Wall"}) {
+    for (const char* up : {"Y", "Z"}) {
+      const auto scene = parseScene(fmt::format("{}up = \"{}\"\n{}mesh = \"{}\"\n", kCurl, up, body, name),
+                                    "the scene", folder);
+      ASSERT_TRUE(scene) << scene.error().message;
+      const auto made = loadScene(*scene);
+      ASSERT_TRUE(made) << made.error().message;
+      const Vec3d upward = *up == 'Z' ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0};
+      const Vec3d at{std::string(name) == "Wall" ? 1.0 : 0, 0, 0};
+      EXPECT_LT(distanceTo(made->bodies[0], at + upward * 0.3), -0.02) << name;
+      EXPECT_GT(distanceTo(made->bodies[0], at - upward * 0.1), 0.05) << name;
+    }
+  }
+  const auto unnamed = parseScene(kCurl + body, "the scene", folder);
+  ASSERT_TRUE(unnamed);
+  const auto refused = loadScene(*unnamed);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("/Post, /Wall"), std::string::npos) << refused.error().message;
 }
 
 // What a body, a scalp or the head cannot be read from is said with what it can, and is the input's fault.

@@ -56,7 +56,7 @@ const std::string kEverythingElse =
     "[[body]]\nshape = 'capsule'\nradius = 0.05\nlength = 0.2\nmoves = 'still'\n"
     "[[body]]\nshape = 'plane'\nmoves = { kind = 'spin', amplitude = 2 }\n"
     "[[body]]\nshape = 'box'\nhalf_extents = [1, 2, 3]\nmoves = 'head'\n"
-    "[[body]]\nshape = 'mesh'\nfile = 'head.obj'\nunit = 1\ncells = 100\nscale = 1.5\n"
+    "[[body]]\nshape = 'mesh'\nfile = 'head.usd'\nmesh = 'Skin'\nunit = 1\ncells = 100\nscale = 1.5\n"
     "[body.moves]\ninterpolation = 'linear'\n[[body.moves.key]]\ntime = 1\n[[body.moves.key]]\ntime = 2\n"
     "position = [1, 0, 0]\n"
     "[[body]]\nshape = 'mesh'\ngenerate = 'head'\n"
@@ -79,7 +79,7 @@ const std::string kKind =
     "offset = [0, 0.01, 0]\n"
     "[motion]\nkind = 'jump'\namplitude = 0.3\nfrequency = 1.5\naxis = [0, 0, 2]\nease = 0.75\nuntil = 3\n"
     "start = [1, 2, 3]\npre_roll = 0.5\n"
-    "[scalp]\nfile = 'skin.glb'\nmesh = 'Skin'\nanimation = 'nod'\nunit = 0.01\nfarthest = 0.002\nstart = "
+    "[scalp]\nfile = 'skin.obj'\ncache = 'skin.pc2'\nfps = 25\nup = '-Y'\nmesh = 'Skin'\nanimation = 'nod'\nunit = 0.01\nfarthest = 0.002\nstart = "
     "-0.5\n"
     "[motion.roots]\nshift = [0.01, 0, 0]\nfrequency = 2\nease = 0.5\nuntil = inf\n";
 
@@ -189,7 +189,8 @@ TEST(SceneFile, EverythingIsRead) {
   EXPECT_EQ(s.bodies[2].moves->amplitude, 2);
   EXPECT_EQ(s.bodies[3].halfExtents, (Vec3d{1, 2, 3}));
   EXPECT_FALSE(s.bodies[3].moves);
-  EXPECT_EQ(s.bodies[4].file, "files/head.obj");
+  EXPECT_EQ(s.bodies[4].file, "files/head.usd");
+  EXPECT_EQ(s.bodies[4].mesh, "Skin");
   EXPECT_EQ(s.bodies[4].metresPerUnit, 1);
   EXPECT_EQ(s.bodies[4].cells, 100);
   EXPECT_EQ(s.bodies[4].scale, 1.5);

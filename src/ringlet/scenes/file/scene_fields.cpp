@@ -433,9 +433,15 @@ std::span<const SceneField<SceneBody>> bodyFields() {
          .unit = "",
          .standard = "none",
          .effect =
-             "File of the mesh: an .obj file of closed surfaces, or a .gltf, .glb or .vrm file with one "
-             "mesh, which is taken at its first key.",
+             "File of closed surfaces: an .obj file, or a .gltf, .glb, .vrm, .usda, .usdc, .usd or .usdz "
+             "file, of which a mesh is taken as it is at its first key or sample.",
          .member = &B::file,
+         .onlyWith = "mesh"},
+        {.key = "mesh",
+         .unit = "",
+         .standard = "the only one",
+         .effect = "Name of the mesh: glTF's own or its node's; a USD prim's name or path.",
+         .member = &B::mesh,
          .onlyWith = "mesh"},
         {.key = "generate",
          .unit = "",
@@ -446,7 +452,7 @@ std::span<const SceneField<SceneBody>> bodyFields() {
          .onlyWith = "mesh"},
         {.key = "unit",
          .unit = "m",
-         .standard = "the groom's; glTF is in metres",
+         .standard = "the groom's of .obj, else the file's",
          .effect = "Metres per unit of the mesh's file.",
          .member = &B::metresPerUnit,
          .allowed = kUnit,

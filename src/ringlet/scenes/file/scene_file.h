@@ -139,6 +139,7 @@ struct SceneSimulation {
 struct SceneBody : Body {
   // Of a mesh.
   std::filesystem::path file;
+  std::string mesh{};                   // of several in the file; empty: the only one
   std::string generate;                 // head, in place of a file
   std::optional<double> metresPerUnit;  // unset: the groom's
   int cells = 64;                       // of its distance grid, along its longest side

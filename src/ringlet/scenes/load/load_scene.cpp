@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "ringlet/base/quoted.h"
 #include "ringlet/bodies/head_mesh.h"
 #include "ringlet/bodies/mesh_file.h"
 #include "ringlet/bodies/mesh_grid.h"
@@ -22,7 +23,7 @@
 #include "ringlet/measure/placement_check.h"
 #include "ringlet/motion/mesh_motion_file.h"
 #include "ringlet/motion/motion_file.h"
-#include "ringlet/motion/skinned_mesh.h"
+#include "ringlet/motion/usd_mesh.h"
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/material_presets.h"
 #include "ringlet/rest/rest_state.h"
@@ -36,14 +37,17 @@
 namespace ringlet {
 namespace {
 
-// Of a glTF file, which has Y up, the only mesh, where it is at the first key; it does not bend.
-Result<TriangleMesh> readGltfMesh(const SceneBody& scene, bool upIsZ, std::vector<std::string>& warnings) {
-  auto read = readSkinnedMesh(
-      scene.file, {.placement = {.metresPerUnit = scene.metresPerUnit.value_or(1), .upIsZ = upIsZ}});
+constexpr const char* kBodyEndings = ".obj, .gltf, .glb, .vrm, .usda, .usdc, .usd and .usdz files";
+
+// Of a glTF or USD file, turned up, a mesh as it is at the first key or sample; it does not bend.
+Result<TriangleMesh> readMeshAtFirst(const SceneBody& scene, bool upIsZ, std::vector<std::string>& warnings) {
+  const auto read =
+      readMeshMotion({.path = scene.file, .mesh = scene.mesh, .metresPerUnit = scene.metresPerUnit}, upIsZ);
   if (!read) return read.error();
-  for (const std::string& warning : read->warnings())
+  const MeshMotion& moving = **read;
+  for (const std::string& warning : moving.warnings())
     warnings.push_back(fmt::format("{}: {}", scene.file.string(), warning));
-  TriangleMesh mesh{read->pointsAt(read->firstSeconds()), read->triangles()};
+  TriangleMesh mesh{moving.pointsAt(moving.firstSeconds()), moving.triangles()};
   if (Status checked = checkMesh(mesh); !checked)
     return Error{fmt::format("{}: {}", scene.file.string(), checked.error().message)};
   return mesh;
@@ -58,11 +62,15 @@ Result<TriangleMesh> meshOf(const SceneBody& scene, const SceneGroom& groom, dou
     head.scalpRadius = groom.scalpRadius;
     mesh = makeHeadMesh(head);
   } else {
-    const bool isGltf = motionFileKind(scene.file.string()) == MotionFileKind::gltf;
-    auto read = isGltf ? readGltfMesh(scene, groom.up == "Z", warnings)
-                       : readObjMesh(scene.file, scene.metresPerUnit.value_or(metresPerUnit));
-    if (!read && !isGltf && !isObjMesh(scene.file)) {
-      return Error{read.error().message + "; bodies are read from .obj, .gltf, .glb and .vrm files",
+    const bool isPlaced =
+        isUsdFile(scene.file) || motionFileKind(scene.file.string()) == MotionFileKind::gltf;
+    if (!isPlaced && !scene.mesh.empty())
+      return Error{fmt::format("{}: found the mesh {}; only a glTF or USD file has meshes with names",
+                               scene.file.string(), ringlet::quoted(scene.mesh))};
+    auto read = isPlaced ? readMeshAtFirst(scene, groom.up == "Z", warnings)
+                         : readObjMesh(scene.file, scene.metresPerUnit.value_or(metresPerUnit));
+    if (!read && !isPlaced && !isObjMesh(scene.file)) {
+      return Error{fmt::format("{}; bodies are read from {}", read.error().message, kBodyEndings),
                    read.error().fault};
     }
     if (!read) return read.error();
