@@ -6,7 +6,7 @@ import pytest
 
 from ringlet_hair.errors import RingletError
 from ringlet_hair.rigid_motion import RigidMotion, motion_of_matrices, motion_of_points, quaternion_of
-from ringlet_hair.scene_text import Collider, Keys, Scene, keys_of, scene_text
+from ringlet_hair.scene_text import Collider, Keys, Scalp, Scene, keys_of, scene_text
 
 
 def turn(axis, angle):
@@ -76,7 +76,7 @@ def test_scene_files_say_all():
     assert np.allclose(keys.positions, (np.arange(9).reshape(3, 3) + (1, 0, 0)) * 0.01)
     name = 'a "head"\\\n\x7f'
     own = Keys(np.array([0.0]), np.array([[1.0, 2, 3]]), np.array([[0.0, 0, 0, 1]]))
-    scene = Scene("groom.hair", 0.01, 3, 24.0, keys, 9.0, 0.5, "coil", True,
+    scene = Scene("groom.hair", 0.01, 3, 24.0, keys, 9.0, 0.5, "coil", True, Scalp("s.obj", "s.pc2", -0.25, 0.02),
                   [Collider(name, "head.obj"), Collider("other", "b.obj", own)])
     read = tomllib.loads(scene_text(scene))
     assert read["groom"] == {"file": "groom.hair", "unit": 0.01, "up": "Z"}
@@ -87,7 +87,8 @@ def test_scene_files_say_all():
     assert [key["quaternion"] for key in read["motion"]["key"]] == keys.quaternions.tolist()
     assert read["simulation"] == {"fps": 24.0, "frames": 3, "gravity": 9.0}
     assert "contacts" in read
+    assert read["scalp"] == {"file": "s.obj", "cache": "s.pc2", "unit": 0.01, "start": -0.25, "farthest": 0.02}
     assert read["body"][0] == {"name": name, "shape": "mesh", "file": "head.obj", "unit": 0.01}
     assert read["body"][1]["moves"]["key"] == [{"time": 0.0, "position": [1, 2, 3], "quaternion": [0, 0, 0, 1]}]
     plain = tomllib.loads(scene_text(Scene("groom.hair", 1.0, 3, 24.0, keys, material="/a/b.toml")))
-    assert plain["material"] == {"file": "/a/b.toml"} and "contacts" not in plain and "body" not in plain
+    assert plain["material"] == {"file": "/a/b.toml"} and not {"contacts", "body", "scalp"} & set(plain)

@@ -101,6 +101,35 @@ TEST(MeshMotion, IsTurnedFromTheFilesAxes) {
   }
 }
 
+// MDD files of left-handed programs have Z the other way round than the OBJ file beside them; points in a
+// plane say nothing.
+TEST(MeshMotion, CachesThatAreMirroredAreTurnedRound) {
+  const auto folder = scratchFolder("mesh_motion_mirrored");
+  const auto all = samples();
+  for (Form& form : formsIn(folder)) {
+    if (form.choice.cache.empty()) continue;
+    SCOPED_TRACE(form.name);
+    writeMeshMotion(folder, "m", kTriangles, all, kFps);
+    const auto plain = readMeshMotion(form.choice, false);
+    ASSERT_TRUE(plain);
+    EXPECT_TRUE((*plain)->warnings().empty());
+    auto mirrored = all;
+    for (auto& points : mirrored)
+      for (Vec3d& p : points) p.z = -p.z;
+    writeBytes(folder / "m.pc2", pc2Bytes(mirrored));
+    writeBytes(folder / "m.mdd", mddBytes(mirrored, 1 / kFps));
+    const auto turned = readMeshMotion(form.choice, false);
+    ASSERT_TRUE(turned) << turned.error().message;
+    EXPECT_EQ((*turned)->warnings().size(), 1u);
+    EXPECT_EQ((*turned)->pointsAt(0.1), (*plain)->pointsAt(0.1));
+    writeMeshMotion(folder, "m", {{0, 1, 2}},
+                    {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, 1}, {1, 0, -1}, {}}}, kFps);
+    const auto sheet = readMeshMotion(form.choice, false);
+    ASSERT_TRUE(sheet);
+    EXPECT_TRUE((*sheet)->warnings().empty());
+  }
+}
+
 // A change of topology names the file and what changed; so does a file that ends early or late.
 TEST(MeshMotion, RefusesOtherTopologies) {
   const auto folder = scratchFolder("mesh_motion_topology");

@@ -72,9 +72,31 @@ Affine worldOf(const MeshMotionChoice& choice, bool upIsZ) {
   return turnUp(choice.up.value_or(upIsZ ? FileAxis::plusZ : FileAxis::plusY), upIsZ) * scaled;
 }
 
+// Whether the first sample is a mirror image of the points, or nearly one: the map from these that fits it
+// best has a negative determinant. Of points in a plane it has none.
+bool isMirrored(const std::vector<Vec3d>& points, const PointSamples& samples) {
+  const std::size_t count = points.size();
+  Vec3d from, to;
+  for (std::size_t p = 0; p < count; ++p) {
+    from += points[p] / static_cast<double>(count);
+    to += Vec3d(samples.points[p]) / static_cast<double>(count);
+  }
+  Vec3d x, y, z;
+  double size = 0;
+  for (std::size_t p = 0; p < count; ++p) {
+    const Vec3d a = points[p] - from, b = Vec3d(samples.points[p]) - to;
+    x += b * a.x;
+    y += b * a.y;
+    z += b * a.z;
+    size += length(a) * length(b);
+  }
+  return dot(x, cross(y, z)) < -1e-6 * size * size * size;
+}
+
 Result<MeshPointer> sampled(TriangleMesh mesh, PointSamples samples, const MeshMotionChoice& choice,
-                            bool upIsZ) {
-  auto made = SampledMesh::of(std::move(mesh.triangles), std::move(samples), {{0}, {worldOf(choice, upIsZ)}});
+                            bool upIsZ, std::vector<std::string> warnings = {}) {
+  auto made = SampledMesh::of(std::move(mesh.triangles), std::move(samples), {{0}, {worldOf(choice, upIsZ)}},
+                              std::move(warnings));
   if (!made) return Error{fmt::format("{}: {}", choice.path.string(), made.error().message)};
   return MeshPointer(std::make_shared<const SampledMesh>(std::move(*made)));
 }
@@ -90,7 +112,14 @@ Result<MeshPointer> readCached(const MeshMotionChoice& choice, bool upIsZ) {
   if (samples->pointCount != mesh->points.size())
     return Error{fmt::format("{}: found {} points; expected {}, as many as {} has", choice.cache.string(),
                              samples->pointCount, mesh->points.size(), choice.path.string())};
-  return sampled(std::move(*mesh), std::move(*samples), choice, upIsZ);
+  std::vector<std::string> warnings;
+  if (isMirrored(mesh->points, *samples)) {
+    for (Vec3f& point : samples->points) point.z = -point.z;
+    warnings.push_back(
+        fmt::format("its points are mirrored in {}, as left-handed programs write them; Z is turned round",
+                    choice.cache.string()));
+  }
+  return sampled(std::move(*mesh), std::move(*samples), choice, upIsZ, std::move(warnings));
 }
 
 Result<MeshPointer> readSequence(const MeshMotionChoice& choice, bool upIsZ) {

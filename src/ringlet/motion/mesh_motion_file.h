@@ -40,9 +40,10 @@ std::vector<std::filesystem::path> meshMotionFiles(const std::filesystem::path& 
                                                    const std::filesystem::path& cache);
 
 /// In a world whose up axis is Y, or Z; times begin at the file's first key, of caches and sequences at 0 s.
-/// Errors, each with the file's name: those of the readers; a name of no such kind; an OBJ file alone, which
-/// has no motion; a cache with other points than the OBJ file; a sequence of which a file has other points or
-/// faces than the first.
+/// A cache that mirrors the points of its OBJ file, as MDD files of left-handed programs do, is mirrored back
+/// along Z, with a warning. Errors, each with the file's name: those of the readers; a name of no such kind;
+/// an OBJ file alone, which has no motion; a cache with other points than the OBJ file; a sequence of which a
+/// file has other points or faces than the first.
 Result<std::shared_ptr<const MeshMotion>> readMeshMotion(const MeshMotionChoice& choice, bool upIsZ);
 
 }  // namespace ringlet
