@@ -105,7 +105,8 @@ TEST(MeshMotion, IsTurnedFromTheFilesAxes) {
 // plane say nothing.
 TEST(MeshMotion, CachesThatAreMirroredAreTurnedRound) {
   const auto folder = scratchFolder("mesh_motion_mirrored");
-  const auto all = samples();
+  auto all = samples();
+  all.erase(all.begin());  // which lies in a plane
   for (Form& form : formsIn(folder)) {
     if (form.choice.cache.empty()) continue;
     SCOPED_TRACE(form.name);
