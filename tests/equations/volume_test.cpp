@@ -257,8 +257,8 @@ TEST(Volume, GroupsAndDensitiesAreTheHosts) {
     const auto contacts = makeContacts<double>(strands, groom.firstPoint, settings.contacts);
 
     std::size_t count = 0;
-    const auto groupOf = [&](std::size_t s) {  // as the host names them
-      if (bundled && contacts.rest.bundles[s] != RestContacts::kNoGroup)
+    const auto groupOf = [&, areBundled = bundled](std::size_t s) {  // as the host names them
+      if (areBundled && contacts.rest.bundles[s] != RestContacts::kNoGroup)
         return 1000 + contacts.rest.bundles[s];
       return contacts.rest.isInVolume(s) ? contacts.rest.volumeGroups[s] : static_cast<std::uint32_t>(s);
     };

@@ -51,7 +51,7 @@ TEST(IncludeRules, ModulesKnowOnlyWhomTheyMay) {
       {"groom", {"base", "groom"}},
       {"scene", {"base", "scene"}},
       {"bodies", {"base", "groom", "scene", "bodies"}},
-      {"motion", {"base", "scene", "bodies", "motion"}},
+      {"motion", {"base", "groom", "scene", "bodies", "motion"}},
       {"rest", {"base", "groom", "scene", "rest"}},
       {"scenes", {"base", "groom", "scene", "rest", "bodies", "motion", "measure", "output", "scenes"}},
       {"gpu", {"base", "gpu"}},

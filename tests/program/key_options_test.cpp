@@ -181,7 +181,7 @@ std::vector<std::string> difference(const std::string& text, const std::string& 
   add(a, b);
   add(b, a);
   std::ranges::sort(keys);
-  keys.erase(std::ranges::unique(keys).begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
   return keys;
 }
 

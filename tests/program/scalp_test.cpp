@@ -96,10 +96,12 @@ TEST(ScalpProgram, FollowsPointCachesAndSequences) {
   for (int frame = 0; frame <= 12; ++frame) samples.push_back(strip->pointsAt(frame / 24.0));
   test::writeMeshMotion(folder, "m", strip->triangles(), samples, 24);
   std::vector<std::string> hashes;
-  for (const char* scalp : {"file = 'm.obj'\ncache = 'm.pc2'", "file = 'm.obj'\ncache = 'm.pc2'\nfps = 24",
-                            "file = 'm.obj'\ncache = 'm.mdd'", "file = 'm.####.obj'\nup = 'Y'",
-                            "file = 'm.usda'\nmesh = 'M'", "file = 'm.usdc'\nmesh = '/M'"}) {
+  for (const char* scalp :
+       {"file = 'm.obj'\ncache = 'm.pc2'", "file = 'm.obj'\ncache = 'm.pc2'\ncache_fps = 24",
+        "file = 'm.obj'\ncache = 'm.mdd'", "file = 'm.####.obj'\nup = 'Y'", "file = 'm.usda'\nmesh = 'M'",
+        "file = 'm.usdc'\nmesh = '/M'"}) {
     writeScene(folder / "scene.toml", fmt::format("[motion]\nkind = 'nod'\n[scalp]\n{}\nunit = 1\n", scalp));
+    std::filesystem::remove_all(folder / "out");
     const json run = simulate(folder, "reference");
     EXPECT_EQ(run["warnings"], json::array());
     expectOnStrip(folder);

@@ -79,7 +79,7 @@ const std::string kKind =
     "offset = [0, 0.01, 0]\n"
     "[motion]\nkind = 'jump'\namplitude = 0.3\nfrequency = 1.5\naxis = [0, 0, 2]\nease = 0.75\nuntil = 3\n"
     "start = [1, 2, 3]\npre_roll = 0.5\n"
-    "[scalp]\nfile = 'skin.obj'\ncache = 'skin.pc2'\nfps = 25\nup = '-Y'\nmesh = 'Skin'\nanimation = 'nod'\nunit = 0.01\nfarthest = 0.002\nstart = "
+    "[scalp]\nfile = 'skin.obj'\ncache = 'skin.pc2'\ncache_fps = 25\nup = '-Y'\nmesh = 'Skin'\nanimation = 'nod'\nunit = 0.01\nfarthest = 0.002\nstart = "
     "-0.5\n"
     "[motion.roots]\nshift = [0.01, 0, 0]\nfrequency = 2\nease = 0.5\nuntil = inf\n";
 

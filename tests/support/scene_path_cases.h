@@ -20,6 +20,7 @@ inline std::vector<PathCase> pathCases() {
       {"goal.file", groom + "[goal]\nfile = 'PATH'\n"},
       {"body.file", groom + "[[body]]\nname = 'b'\nshape = 'mesh'\nfile = 'PATH'\n"},
       {"body.moves.file", groom + "[[body]]\nname = 'b'\nshape = 'sphere'\n[body.moves]\nfile = 'PATH'\n"},
+      {"scalp.cache", groom + "[scalp]\nfile = 'a.obj'\ncache = 'PATH'\n"},
       {"camera.file", groom + "[[camera]]\nname = 'c'\nfile = 'PATH'\n"},
       {"field.file", groom + "[[field]]\nname = 'f'\nkind = 'grid'\nstrength = 1\nfile = 'PATH'\n"},
       {"map.file", groom + "[[map]]\nnumber = 'bend_stiffness'\nfile = 'PATH'\n"},

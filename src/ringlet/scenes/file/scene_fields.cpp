@@ -354,7 +354,7 @@ std::span<const SceneField<SceneScalp>> scalpFields() {
        &S::up,
        {},
        kFileAxisNames},
-      {"fps",
+      {"cache_fps",
        "1/s",
        "the run's",
        "Frames per second of a .pc2 file or a sequence.",

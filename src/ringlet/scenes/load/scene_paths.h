@@ -16,8 +16,7 @@ void forEachFileOf(Scene& scene, const Visit& visit) {
     (one(paths), ...);
   };
   named(scene.groom.file, scene.groom.scalp, scene.motion.file, scene.scalp.file, scene.scalp.cache,
-        scene.goalFile,
-        scene.output.hairScalpFile);
+        scene.goalFile, scene.output.hairScalpFile);
   for (auto& body : scene.bodies) {
     named(body.file);
     if (body.moves) named(body.moves->file);
