@@ -1,12 +1,15 @@
 """Rigid motions, and the scene file they go into."""
 import tomllib
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from ringlet_hair.errors import RingletError
 from ringlet_hair.rigid_motion import RigidMotion, motion_of_matrices, motion_of_points, quaternion_of
+from ringlet_hair.sampling import combined
 from ringlet_hair.scene_text import Collider, Keys, Scalp, Scene, keys_of, scene_text
+from ringlet_hair.strands import Strands
 
 
 def turn(axis, angle):
@@ -92,3 +95,23 @@ def test_scene_files_say_all():
     assert read["body"][1]["moves"]["key"] == [{"time": 0.0, "position": [1, 2, 3], "quaternion": [0, 0, 0, 1]}]
     plain = tomllib.loads(scene_text(Scene("groom.hair", 1.0, 3, 24.0, keys, material="/a/b.toml")))
     assert plain["material"] == {"file": "/a/b.toml"} and not {"contacts", "body", "scalp"} & set(plain)
+
+
+def test_a_head_that_bends_moves_as_where_hair_grows():
+    """The upper half of a body nods about its middle and the lower stays: hair on top goes with the upper."""
+    rng = np.random.default_rng(3)
+    rest = rng.uniform((-1, -1, -2), (1, 1, 2), (400, 3))
+    nods = [turn((1, 0, 0), 0.3 * k) for k in range(4)]
+    frames = [np.where(rest[:, 2:] > 0, rest @ nod.T, rest) for nod in nods]
+    object = SimpleNamespace(name="Hair")
+    source = SimpleNamespace(name="Hair", object=object)
+    top = rest[rest[:, 2] > 1.2][:20]
+    strands = Strands(np.repeat(top, 2, axis=0) + np.tile([[0, 0, 0], [0, 0, 0.1]], (20, 1)), [2] * 20)
+    still = {"Hair": [np.eye(4)] * 4}
+    samples = combined([source], [strands], still, SimpleNamespace(name="Body"), frames, np.zeros((1, 3), int), range(4), 0)
+    assert np.allclose(samples.motion.rotations, nods) and np.allclose(samples.head.motion.rotations, nods)
+    assert samples.head.off < 1e-9 and samples.head.bent is frames
+    assert "Body bends" in samples.warnings[0] and "Roots follow it" in samples.warnings[0]
+    rigid = [rest @ nod.T for nod in nods]
+    samples = combined([source], [strands], still, SimpleNamespace(name="Body"), rigid, np.zeros((1, 3), int), range(4), 0)
+    assert samples.head.bent is None and not samples.warnings

@@ -7,6 +7,9 @@ from .errors import RingletError
 from .rigid_motion import RigidMotion, motion_of_matrices, motion_of_points
 
 
+FEWEST_POINTS = 4  # by which a motion is known
+
+
 @dataclass
 class HeadMesh:
     name: str
@@ -65,16 +68,28 @@ def combined(sources, strands, matrices, head, head_points, triangles, frames, b
             raise RingletError(f"the mesh {head.name} has another count of points from frame to frame; "
                                "take the modifier that changes it off")
         head_motion, off = motion_of_points(head_points, head_points[bind])
+        is_bent = off > 1e-3 * np.ptp(head_points[bind], axis=0).max()
+        if is_bent:  # it counts as what moves as the skin below the hair does
+            near = nearest_points(head_points[bind], np.concatenate([part.roots for part in strands]))
+            if len(near) >= FEWEST_POINTS:
+                head_motion, off = motion_of_points([points[near] for points in head_points], head_points[bind][near])
         mesh = HeadMesh(head.name, head_points[bind], triangles, head_motion, off)
         is_carried = motion.is_still(size)
         if is_carried:
             motion = head_motion
-        if off > 1e-3 * np.ptp(mesh.points, axis=0).max():
+        if is_bent:
             mesh.bent = head_points if is_carried else None
-            warnings.append(f"{head.name} bends, and hair stays out of it as if it did not: its points are up to "
-                            f"{off:.3g} units from the nearest rigid motion. "
+            warnings.append(f"{head.name} bends, and hair stays out of it as if it did not: it is taken to move as where "
+                            f"hair grows, whose points are up to {off:.3g} units from that. "
                             + ("Roots follow it as it bends" if is_carried else "Roots go as their object does"))
     return Samples(sources, strands, motion, mesh, list(frames), bind, warnings)
+
+
+def nearest_points(points, roots):
+    """Indices, each once, of the points nearest to the roots, of which a thousand count."""
+    chosen = roots[np.linspace(0, len(roots) - 1, min(len(roots), 1000)).astype(int)]
+    nearest = [int(np.argmin(((points - root) ** 2).sum(axis=1))) for root in chosen]
+    return np.unique(nearest)
 
 
 def mesh_points(head, depsgraph):
