@@ -87,6 +87,23 @@ TEST(ScalpProgram, KeepsRootsOnAMeshThatBendsOnTheDevice) {
   expectOnStrip(folder);
 }
 
+// A slab above the strip, into which it bends, is told; one below it is not.
+TEST(ScalpProgram, SaysWhereRootsComeIntoABodyThatDoesNotBend) {
+  const auto folder = folderWithFiles("scalp_in_body", 0);
+  for (const auto& [y, count] : {std::pair{0.4, 1u}, {-0.4, 0u}}) {
+    writeScene(folder / "scene.toml",
+               fmt::format("[scalp]\nfile = 'strip.glb'\n[[body]]\nname = 'slab'\nshape = 'box'\n"
+                           "half_extents = [3, 0.3, 1]\nposition = [0, {}, 0]\n",
+                           y));
+    std::filesystem::remove_all(folder / "out");
+    const json warnings = simulate(folder, "reference")["warnings"];
+    const auto told = std::ranges::count_if(warnings, [](const json& warning) {
+      return warning.get<std::string>().find("into the body slab, which does not bend") != std::string::npos;
+    });
+    EXPECT_EQ(told, count) << warnings;
+  }
+}
+
 // One mesh in every form: roots are on it, and forms with the same samples give the same hair.
 TEST(ScalpProgram, FollowsPointCachesAndSequences) {
   const auto folder = folderWithFiles("scalp_samples", 0);

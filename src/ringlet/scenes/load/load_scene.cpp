@@ -14,7 +14,6 @@
 #include "ringlet/bodies/head_mesh.h"
 #include "ringlet/bodies/mesh_file.h"
 #include "ringlet/bodies/mesh_grid.h"
-#include "ringlet/bodies/triangle_tree.h"
 #include "ringlet/groom/generate.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/measure/groom_doubts.h"
@@ -30,6 +29,7 @@
 #include "ringlet/scene/body_forms.h"
 #include "ringlet/scenes/load/idle_dials.h"
 #include "ringlet/scenes/load/motion_reach.h"
+#include "ringlet/scenes/load/scalp_doubts.h"
 #include "ringlet/scenes/load/scene_maps.h"
 #include "ringlet/scenes/load/scene_parts.h"
 #include "ringlet/scenes/load/world_bind.h"
@@ -149,24 +149,6 @@ Result<Motion> loadedMotion(const SceneFile& scene, const Settings& settings,
   }
   cutJumps(settings, motion);
   return motion;
-}
-
-// By the mesh where roots are bound to it.
-std::optional<std::string> doubtOfRootEnds(const MeshMotion& mesh, const Groom& groom, const Motion& motion,
-                                           const HeadScalpChoice& binding, const std::string& name) {
-  const TriangleMesh ground{mesh.pointsAt(mesh.firstSeconds()), mesh.triangles()};
-  if (!checkMesh(ground) || groom.strandCount() == 0) return std::nullopt;  // the binding says what is wrong
-  const TriangleTree tree(ground);
-  const HeadPose head = motion.poseAt(binding.start);
-  const auto distanceTo = [&](Vec3d end) {
-    const Vec3d place = end * groom.metresPerUnit;
-    return tree.nearest(head.position - binding.offset + rotate(head.rotation, place)).distance;
-  };
-  const StrandEnds ends = strandEnds(groom);
-  std::vector<EndDistances> distances;
-  for (std::size_t s = 0; s < groom.strandCount(); ++s)
-    distances.push_back({distanceTo(ends.first[s]), distanceTo(ends.last[s])});
-  return checkRootEnds(groom, distances, name);
 }
 
 // The scalp with the groom's roots bound to it. Where its file is the head's the two stand in one world, and
@@ -503,6 +485,7 @@ Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known, 
   }
   loaded.preRollSeconds = scene.motion.preRollSeconds;
   loaded.frameCount = frameCountOf(scene, loaded.motion);
+  for (std::string& sentence : doubtsOfRigidBodies(loaded)) loaded.warnings.push_back(std::move(sentence));
   const double seconds = loaded.frameCount / loaded.settings.framesPerSecond;
   for (std::string& sentence : idleDials(scene.material.dials, loaded.material, loaded.groom, loaded.settings,
                                          loaded.motion, seconds))
