@@ -193,7 +193,7 @@ def check_head_that_bends():
     check(np.ptp(rigid, axis=0).max() > 0.005, f"it bends: distances of roots change by {np.ptp(rigid, axis=0).max():.3f} m")
     check(off < 1e-5, f"roots are within {off:.1e} m of the points they are on")
 
-    # The same mesh as Blender's own exporters write it: OBJ with Y up, and MDD, which is left-handed.
+    # The same mesh as Blender's own exporters write it: faces from an OBJ with Y up, points from an MDD with Z up.
     folder = os.path.join(FOLDER, "ringlet", "Hair")
     select(head)
     scene.frame_set(FIRST)
@@ -205,7 +205,7 @@ def check_head_that_bends():
     with open(os.path.join(folder, "scene.toml"), encoding="utf-8") as file:
         text = file.read()
     with open(os.path.join(folder, "own.toml"), "w", encoding="utf-8") as file:
-        file.write(text.replace("scalp.obj", "own.obj").replace('"scalp.pc2"', '"own.mdd"\nup = "Y"'))
+        file.write(text.replace("scalp.obj", "own.obj").replace("scalp.pc2", "own.mdd"))
     done = subprocess.run([PROGRAM, "simulate", "own.toml", "-o", "own"], cwd=folder, capture_output=True, text=True)
     check(done.returncode == 0, f"the program reads Blender's OBJ and MDD: {done.stderr}")
     subprocess.run([PROGRAM, "convert", "own/hair.usda", "own/hair.pc2"], cwd=folder, check=True, capture_output=True)
