@@ -27,16 +27,6 @@ constexpr double kUsdUnit = 0.01;      // of a file that says none [m]
 constexpr double kUsdTimeCodes = 24;   // likewise, in a second
 constexpr std::size_t kMostNamed = 6;  // in a sentence
 
-const UsdAttribute* find(const UsdPrim& prim, std::string_view name) {
-  const auto found = std::ranges::find(prim.attributes, name, &UsdAttribute::name);
-  return found == prim.attributes.end() ? nullptr : &*found;
-}
-
-std::string_view tokenOf(const UsdPrim& prim, std::string_view name, std::string_view otherwise) {
-  const UsdAttribute* attribute = find(prim, name);
-  return attribute && attribute->value.texts.size() == 1 ? attribute->value.texts.front() : otherwise;
-}
-
 // What an op's samples say at a time: straight between numbers, of quaternions the shorter way.
 UsdValue valueAt(const std::vector<UsdSample>& samples, double time) {
   const auto after = std::ranges::upper_bound(samples, time, {}, &UsdSample::time);
@@ -146,7 +136,7 @@ class UsdMeshMaker {
   }
 
   Result<const UsdValue*> constantOf(std::string_view name) const {
-    const UsdAttribute* attribute = find(mesh(), name);
+    const UsdAttribute* attribute = usdAttributeOf(mesh(), name);
     if (!attribute || attribute->value.numbers.empty()) return wrong(prim_, fmt::format("has no {}", name));
     for (const UsdSample& sample : attribute->samples) {
       if (sample.value.numbers != attribute->value.numbers)
@@ -162,7 +152,7 @@ class UsdMeshMaker {
     const auto indices = constantOf("faceVertexIndices");
     if (!indices) return indices.error();
     const std::vector<double>& corners = (*indices)->numbers;
-    const bool isLeft = tokenOf(mesh(), "orientation", "rightHanded") == "leftHanded";
+    const bool isLeft = usdTokenOf(mesh(), "orientation", "rightHanded") == "leftHanded";
     std::size_t at = 0;
     for (const double count : (*counts)->numbers) {
       if (!(count >= 3 && count <= static_cast<double>(corners.size() - at)) || count != std::floor(count))
@@ -184,7 +174,7 @@ class UsdMeshMaker {
       }
       at += static_cast<std::size_t>(count);
     }
-    if (tokenOf(mesh(), "subdivisionScheme", "catmullClark") != "none")
+    if (usdTokenOf(mesh(), "subdivisionScheme", "catmullClark") != "none")
       warnings_.push_back(
           fmt::format("{}: a subdivision surface; its cage is taken, which lies a little outside",
                       usdPathOf(layer_, prim_)));
@@ -192,7 +182,7 @@ class UsdMeshMaker {
   }
 
   Status readPoints() {
-    const UsdAttribute* points = find(mesh(), "points");
+    const UsdAttribute* points = usdAttributeOf(mesh(), "points");
     if (!points) return wrong(prim_, "has no points");
     if (!points->drivenBy.empty())
       return wrong(prim_, fmt::format("points are given by {}, which is not followed", points->drivenBy));

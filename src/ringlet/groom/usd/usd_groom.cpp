@@ -59,17 +59,6 @@ struct Unread : Found {
   std::string sentence;  // of the first
 };
 
-const UsdAttribute* find(const UsdPrim& prim, std::string_view name) {
-  const auto found = std::ranges::find(prim.attributes, name, &UsdAttribute::name);
-  return found == prim.attributes.end() ? nullptr : &*found;
-}
-
-// The token of an attribute, or what holds without one.
-std::string_view tokenOf(const UsdPrim& prim, std::string_view name, std::string_view otherwise) {
-  const UsdAttribute* attribute = find(prim, name);
-  return attribute && attribute->value.texts.size() == 1 ? attribute->value.texts.front() : otherwise;
-}
-
 std::string counted(std::size_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
@@ -159,7 +148,7 @@ class UsdGroomMaker {
       const UsdPrim& prim = layer_.prims[i];
       Inherited own = prim.parent == kNoUsdPrim ? Inherited{} : inherited_[prim.parent];
       own.hasStrands = false;
-      own.purpose = tokenOf(prim, "purpose", own.purpose);
+      own.purpose = usdTokenOf(prim, "purpose", own.purpose);
       if (own.composed == kNoUsdPrim && !prim.composedBy.empty()) own.composed = i;
       if (!prim.deformedBy.empty()) own.deformed = i;
       if (own.leftOut == LeftOut::no) own.leftOut = leftOutBy(prim);
@@ -186,7 +175,7 @@ class UsdGroomMaker {
     if (!prim.isActive) return LeftOut::inactive;
     if (prim.specifier == UsdSpecifier::abstract) return LeftOut::abstract;
     if (prim.specifier == UsdSpecifier::over) return LeftOut::over;
-    return tokenOf(prim, "visibility", "") == "invisible" ? LeftOut::invisible : LeftOut::no;
+    return usdTokenOf(prim, "visibility", "") == "invisible" ? LeftOut::invisible : LeftOut::no;
   }
 
   // "2 Mesh, 1 NurbsCurves".
@@ -276,12 +265,13 @@ class UsdGroomMaker {
     const auto unfit = [](const std::string& sentence) { return Error{sentence}; };
     const UsdPrim& prim = layer_.prims[index];
     for (const std::string_view name : {"type", "basis", "wrap", "points", "curveVertexCounts"}) {
-      const UsdAttribute* attribute = find(prim, name);
+      const UsdAttribute* attribute = usdAttributeOf(prim, name);
       if (attribute && !attribute->drivenBy.empty())
         return unfit(fmt::format("its {} are given by {}, which is not followed", name, attribute->drivenBy));
     }
-    const std::string_view type = tokenOf(prim, "type", "cubic"), basis = tokenOf(prim, "basis", "bezier"),
-                           wrap = tokenOf(prim, "wrap", "nonperiodic");
+    const std::string_view type = usdTokenOf(prim, "type", "cubic"),
+                           basis = usdTokenOf(prim, "basis", "bezier"),
+                           wrap = usdTokenOf(prim, "wrap", "nonperiodic");
     if (type != "cubic" && type != "linear")
       return unfit(fmt::format("found type {}; expected linear or cubic", quoted(type)));
     if (wrap == "periodic")
@@ -339,8 +329,8 @@ class UsdGroomMaker {
       return {};
     }
     static const UsdAttribute none{};
-    const UsdAttribute* pointsFound = find(layer_.prims[index], "points");
-    const UsdAttribute* countsFound = find(layer_.prims[index], "curveVertexCounts");
+    const UsdAttribute* pointsFound = usdAttributeOf(layer_.prims[index], "points");
+    const UsdAttribute* countsFound = usdAttributeOf(layer_.prims[index], "curveVertexCounts");
     const UsdValue& points = (pointsFound ? pointsFound : &none)->value;
     UsdValue counts = (countsFound ? countsFound : &none)->value;
     Status fits;
@@ -394,7 +384,7 @@ class UsdGroomMaker {
                   const std::vector<std::size_t>& kept, GroomPrim& into) {
     for (const UsdAttribute& attribute : prim.attributes) {
       if (!isUsdValue(attribute.name)) continue;
-      const bool isIndexed = find(prim, std::string(attribute.name) + ":indices") != nullptr;
+      const bool isIndexed = usdAttributeOf(prim, std::string(attribute.name) + ":indices") != nullptr;
       const bool isWidths = attribute.name == "widths";
       std::string_view per = attribute.interpolation;
       if (per.empty()) per = isWidths ? "vertex" : attribute.name == "ids" ? "uniform" : "constant";
@@ -518,7 +508,7 @@ class UsdGroomMaker {
       warn(fmt::format("left aside {} of curves, which move or do not fit the strands",
                        counted(valuesLeft_, "value")));
     if (begunEmpty_.count > 0) {
-      const UsdAttribute& points = *find(layer_.prims[begunEmpty_.firstPrim], "points");
+      const UsdAttribute& points = *usdAttributeOf(layer_.prims[begunEmpty_.firstPrim], "points");
       warn(fmt::format("{} without points at first, {} at time {}; read as at the first time with points, {}",
                        begunEmpty_.count == 1 ? "1 BasisCurves prim is"
                                               : fmt::format("{} BasisCurves prims are", begunEmpty_.count),

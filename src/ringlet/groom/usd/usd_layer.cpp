@@ -1,9 +1,21 @@
 // Implements groom/usd/usd_layer.h.
 #include "ringlet/groom/usd/usd_layer.h"
 
+#include <algorithm>
+
 #include "ringlet/base/quoted.h"
 
 namespace ringlet {
+
+const UsdAttribute* usdAttributeOf(const UsdPrim& prim, std::string_view name) {
+  const auto found = std::ranges::find(prim.attributes, name, &UsdAttribute::name);
+  return found == prim.attributes.end() ? nullptr : &*found;
+}
+
+std::string_view usdTokenOf(const UsdPrim& prim, std::string_view name, std::string_view otherwise) {
+  const UsdAttribute* attribute = usdAttributeOf(prim, name);
+  return attribute && attribute->value.texts.size() == 1 ? attribute->value.texts.front() : otherwise;
+}
 
 std::string usdPathOf(const UsdLayer& layer, std::uint32_t prim) {
   constexpr std::size_t kMostLevels = 16;  // enough to find it, short enough for a line

@@ -101,6 +101,12 @@ inline bool isUsdDeformation(std::string_view name) {
 /// Whether its first samples count for nothing as long as they are empty: hair that is not there yet.
 inline bool mayBeginEmpty(std::string_view name) { return name == "points" || name == "curveVertexCounts"; }
 
+/// Null where the prim has none of this name, or none that is kept.
+const UsdAttribute* usdAttributeOf(const UsdPrim& prim, std::string_view name);
+
+/// The token of an attribute, or what holds without one.
+std::string_view usdTokenOf(const UsdPrim& prim, std::string_view name, std::string_view otherwise);
+
 /// "/Head/Hair"; control characters are shown as \xNN.
 std::string usdPathOf(const UsdLayer& layer, std::uint32_t prim);
 
