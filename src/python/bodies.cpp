@@ -29,18 +29,11 @@ struct Stand {
   std::optional<MotionObject> motion;
 };
 
-std::vector<SettingField<Body>> numbersOf(const BodyForm& form) {
-  std::vector<SettingField<Body>> rows;
-  for (const SettingField<Body>& row : bodyNumbers())
-    if (hasNumber(form, row)) rows.push_back(row);
-  return rows;
-}
-
 // `sizes`, by place, are the numbers that only some shapes have, in their order.
 Body bodyOf(const BodyForm& form, const Stand& stand, const py::args& sizes, py::kwargs numbers) {
   Body body{.name = stand.name, .shape = form.shape, .place = stand.place};
   if (stand.motion) body.motion = stand.motion->motion;
-  const std::vector<SettingField<Body>> rows = numbersOf(form);
+  const std::vector<SettingField<Body>> rows = bodyNumbersOf(form);
   std::size_t given = 0;
   for (const SettingField<Body>& row : rows) {
     if (row.onlyWith.empty()) continue;
@@ -135,7 +128,7 @@ py::array_t<double> distances(const BodyObject& self, const py::object& points, 
 std::string bodyReprOf(const BodyObject& self) {
   const Body& body = self.body;
   std::string size;
-  for (const SettingField<Body>& row : numbersOf(formOf(body.shape))) {
+  for (const SettingField<Body>& row : bodyNumbersOf(formOf(body.shape))) {
     if (row.onlyWith.empty()) continue;
     const py::object value = std::visit([&](auto member) { return toPython(body.*member); }, row.member);
     size += fmt::format(", {} {} m", row.key, py::repr(value).cast<std::string>());
@@ -148,7 +141,7 @@ std::string bodyReprOf(const BodyObject& self) {
 
 void addShape(py::class_<BodyObject>& bodies, const BodyForm& form) {
   const std::string doc = fmt::format("A {}. Its numbers, by name, sizes also by place:{}", form.name,
-                                      numbersText<Body>(numbersOf(form)));
+                                      numbersText<Body>(bodyNumbersOf(form)));
   bodies.def_static(
       form.name.data(),
       [&form](const py::args& sizes, const std::string& name, const py::object& position,
@@ -164,7 +157,7 @@ void addMesh(py::class_<BodyObject>& bodies) {
       "A closed surface: points (points, 3) [m], triangles (triangles, 3) indices, counterclockwise seen from "
       "outside, as read_mesh and make_head_mesh give them. cells: of its distance grid, along its longest side, "
       "8 to 256. Takes about a second. Its numbers, by name:" +
-      numbersText<Body>(numbersOf(formOf(BodyShape::grid)));
+      numbersText<Body>(bodyNumbersOf(formOf(BodyShape::grid)));
   bodies.def_static(
       "mesh",
       [](const py::object& points, const py::object& triangles, int cells, const std::string& name,

@@ -190,6 +190,16 @@ Variation variationOf(double radius, double length, double phase, double leftHan
   return {
       .radius = radius, .length = length, .phase = phase, .leftHandedShare = leftHandedShare, .seed = seed};
 }
+CurlParameters curlOf(double radius, double turns, double length, int particles, int handedness, double phase,
+                      double metresPerUnit) {
+  return {.radius = radius,
+          .turns = turns,
+          .length = length,
+          .particleCount = particles,
+          .handedness = handedness,
+          .phase = phase,
+          .metresPerUnit = metresPerUnit};
+}
 GroomHandle generated(Result<Groom> made, const CurlParameters& curl) {
   LoadedGroom loaded{valueOf(std::move(made)), {}};
   if (const auto warning = coarseCurlWarning(curl)) loaded.warnings.push_back(*warning);
@@ -293,13 +303,8 @@ void addCurlMakers(py::module_& module) {
       "make_curl",
       [](double radius, double turns, double length, int particles, int handedness, double phase,
          double metresPerUnit) {
-        const CurlParameters curl{.radius = radius,
-                                  .turns = turns,
-                                  .length = length,
-                                  .particleCount = particles,
-                                  .handedness = handedness,
-                                  .phase = phase,
-                                  .metresPerUnit = metresPerUnit};
+        const CurlParameters curl =
+            curlOf(radius, turns, length, particles, handedness, phase, metresPerUnit);
         return generated(makeCurl(curl), curl);
       },
       py::kw_only(), py::arg("radius") = c.radius, py::arg("turns") = c.turns, py::arg("length") = c.length,
@@ -313,13 +318,8 @@ void addCurlMakers(py::module_& module) {
       [](int columns, int rows, double spacing, double radius, double turns, double length, int particles,
          int handedness, double phase, double varyRadius, double varyLength, double varyPhase,
          double leftHandedShare, std::uint64_t seed, double metresPerUnit) {
-        const CurlParameters curl{.radius = radius,
-                                  .turns = turns,
-                                  .length = length,
-                                  .particleCount = particles,
-                                  .handedness = handedness,
-                                  .phase = phase,
-                                  .metresPerUnit = metresPerUnit};
+        const CurlParameters curl =
+            curlOf(radius, turns, length, particles, handedness, phase, metresPerUnit);
         return withoutGil([&] {
           return generated(
               makeSwatch({.curl = curl,
@@ -363,13 +363,8 @@ void addHeadMakers(py::module_& module) {
          double bendLength, double rampShare, double radius, double turns, double length, int particles,
          int handedness, double phase, double varyRadius, double varyLength, double varyPhase,
          double leftHandedShare, std::uint64_t seed, double metresPerUnit) {
-        const CurlParameters curl{.radius = radius,
-                                  .turns = turns,
-                                  .length = length,
-                                  .particleCount = particles,
-                                  .handedness = handedness,
-                                  .phase = phase,
-                                  .metresPerUnit = metresPerUnit};
+        const CurlParameters curl =
+            curlOf(radius, turns, length, particles, handedness, phase, metresPerUnit);
         return withoutGil([&] {
           return generated(
               makeHead({.curl = curl,

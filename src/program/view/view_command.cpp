@@ -21,6 +21,7 @@
 #include "program/render/picture_options.h"
 #include "program/simulate/run_report.h"
 #include "ringlet/groom/groom_file.h"
+#include "ringlet/groom/root_ends.h"
 #include "ringlet/pictures/follow_plan.h"
 #include "ringlet/pictures/picture_solids.h"
 #include "ringlet/render/look.h"
@@ -76,9 +77,7 @@ struct TypedView {
 void addSolids(const LoadedScene& scene, Vec3d up, view::ViewPlan& plan) {
   const Groom& groom = scene.groom;
   Vec3d low{1e9, 1e9, 1e9}, high = low * -1.0;
-  std::vector<Vec3d> roots;
-  for (std::size_t s = 0; s < groom.strandCount(); ++s)
-    roots.push_back(Vec3d(groom.strand(s).front()) * groom.metresPerUnit);
+  const std::vector<Vec3d> roots = rootPlaces(groom);
   for (const Vec3f& point : groom.points) {
     const Vec3d p = Vec3d(point) * groom.metresPerUnit;
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};

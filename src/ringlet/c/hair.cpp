@@ -89,9 +89,7 @@ Outcome takeBody(const ringlet_body& from, std::uint32_t index, Body& body) {
   const BodyForm* form = formNamed(from.shape ? from.shape : "");
   if (!form) return unknown("shape of a body", from.shape ? from.shape : "", namesIn(shapeNames()));
   body.shape = form->shape;
-  std::vector<SettingField<Body>> rows;
-  for (const SettingField<Body>& row : bodyNumbers())
-    if (hasNumber(*form, row)) rows.push_back(row);
+  const std::vector<SettingField<Body>> rows = bodyNumbersOf(*form);
   Outcome taken = takeNumbers<Body>(rows, from.shape, body.name, from.numbers, from.number_count, body);
   if (!taken.isFine()) return taken;
   const auto place = poseOf<BodyPose>(from.pose);

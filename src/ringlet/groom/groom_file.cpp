@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "ringlet/base/assert.h"
+#include "ringlet/base/file_ending.h"
 #include "ringlet/base/whole_file.h"
 #include "ringlet/groom/hair_file.h"
 #include "ringlet/groom/obj_file.h"
@@ -28,10 +29,7 @@ namespace {
 enum class Format { hair, obj, tfx, usd, ply, data, bin };
 
 std::optional<Format> formatOf(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
+  const std::string extension = endingOf(path);
   if (extension == ".hair") return Format::hair;
   if (extension == ".obj") return Format::obj;
   if (extension == ".tfx") return Format::tfx;

@@ -161,6 +161,13 @@ std::vector<bool> reversedBy(std::span<const EndDistances> strands, double on, d
   return isReversed;
 }
 
+std::vector<Vec3d> rootPlaces(const Groom& groom) {
+  std::vector<Vec3d> roots;
+  for (std::size_t s = 0; s < groom.strandCount(); ++s)
+    roots.push_back(Vec3d(groom.strand(s).front()) * groom.metresPerUnit);
+  return roots;
+}
+
 StrandEnds strandEnds(const Groom& groom) {
   const std::vector<bool> isStray = strayPoints(groom);
   StrandEnds ends;

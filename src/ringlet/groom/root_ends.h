@@ -26,6 +26,9 @@ struct StrandEnds {
 };
 StrandEnds strandEnds(const Groom& groom);
 
+/// Of each strand the first particle [m].
+std::vector<Vec3d> rootPlaces(const Groom& groom);
+
 struct RootEnds {
   std::optional<Ball> head{};      // [unit]
   std::vector<bool> isReversed{};  // of each strand; where there is no head, none is

@@ -20,13 +20,6 @@ namespace {
 constexpr double kFarRoots = 0.5;   // distance of roots from the head's pivot that is not plausible [m]
 constexpr double kNoTurn = 0.9999;  // cosine of half an angle of 1.6 degrees
 
-std::vector<Vec3d> rootsOf(const Groom& groom) {
-  std::vector<Vec3d> roots;
-  for (std::size_t s = 0; s < groom.strandCount(); ++s)
-    roots.push_back(Vec3d(groom.strand(s).front()) * groom.metresPerUnit);
-  return roots;
-}
-
 Vec3d meanOf(std::span<const Vec3d> points) {
   Vec3d sum;
   for (const Vec3d& p : points) sum += p;
@@ -38,7 +31,7 @@ double sizeOf(const Groom& groom) { return boundsOf(groom.points).diagonal() * g
 
 double nearestRoot(const Groom& groom) {
   double nearest = HUGE_VAL;
-  for (const Vec3d& root : rootsOf(groom)) nearest = std::min(nearest, length(root));
+  for (const Vec3d& root : rootPlaces(groom)) nearest = std::min(nearest, length(root));
   return nearest;
 }
 
@@ -49,7 +42,7 @@ bool standsOnAxis(const Groom& groom, const Motion& motion) {
   if (kind != MotionKind::nod && kind != MotionKind::spin && kind != MotionKind::turn &&
       kind != MotionKind::whip)
     return false;
-  return std::ranges::any_of(rootsOf(groom), [&](Vec3d root) {
+  return std::ranges::any_of(rootPlaces(groom), [&](Vec3d root) {
     return length(root - motion.axis * dot(root, motion.axis)) <= std::max(kFarRoots, sizeOf(groom));
   });
 }
@@ -116,7 +109,7 @@ std::optional<std::string> doubtOfUp(const Groom& groom, bool upIsZ) {
   const char up = upIsZ ? 'Z' : 'Y', likely = likelyUpOf(groom);
   if (likely == 0 || likely == up) return std::nullopt;
   // Hair that is combed back still grows from the top of a head.
-  const std::vector<Vec3d> roots = rootsOf(groom);
+  const std::vector<Vec3d> roots = rootPlaces(groom);
   if (const auto head = headUnder(roots)) {
     const Vec3d top = meanOf(roots) - head->middle;
     if (upIsZ ? top.z > top.y : top.y > top.z) return std::nullopt;
@@ -136,7 +129,7 @@ std::vector<std::string> doubtsOf(const LoadedGroom& loaded, const GroomReading&
 }
 
 Vec3d headMiddle(const Groom& groom) {
-  const std::vector<Vec3d> roots = rootsOf(groom);
+  const std::vector<Vec3d> roots = rootPlaces(groom);
   if (const auto head = headUnder(roots)) return head->middle;
   return meanOf(roots);
 }

@@ -68,7 +68,6 @@ Result<SkinnedMesh> SkinnedMesh::of(std::shared_ptr<const GltfFile> file, const 
 
 std::vector<Vec3d> SkinnedMesh::shapeAt(double t) const {
   std::vector<Vec3d> points = mesh_->points;
-  if (mesh_->morphs.empty()) return points;
   const std::vector<double>& own = file_->nodes[node_].weights;
   std::vector<double> weights = own.empty() ? mesh_->weights : own;
   if (animation_) {
@@ -84,7 +83,8 @@ std::vector<Vec3d> SkinnedMesh::shapeAt(double t) const {
 }
 
 std::vector<Vec3d> SkinnedMesh::pointsAt(double t) const {
-  const std::vector<Vec3d> shape = shapeAt(t);
+  const std::vector<Vec3d> morphed = mesh_->morphs.empty() ? std::vector<Vec3d>() : shapeAt(t);
+  const std::vector<Vec3d>& shape = mesh_->morphs.empty() ? mesh_->points : morphed;
   const std::vector<Affine> worlds = file_->worldsAt(animation_, t);
   std::vector<Affine> joints;  // world from the mesh in its rest pose
   if (skin_) {

@@ -41,7 +41,7 @@ class SkinnedMesh final : public MeshMotion {
 
  private:
   SkinnedMesh() = default;
-  std::vector<Vec3d> shapeAt(double t) const;  // before the skin
+  std::vector<Vec3d> shapeAt(double t) const;  // by its morph targets, before the skin
 
   std::shared_ptr<const GltfFile> file_;  // owns the next three
   const GltfMesh* mesh_ = nullptr;

@@ -15,10 +15,8 @@ namespace ringlet {
 Status checkBody(const Body& body) {
   const std::string owner = fmt::format("the body {}", body.name.empty() ? "without a name" : body.name);
   const auto fail = [&](const std::string& what) { return Error{fmt::format("{} {}", owner, what)}; };
-  for (const SettingField<Body>& number : bodyNumbers()) {
-    if (!hasNumber(formOf(body.shape), number)) continue;
-    if (Status checked = checkRow(number, body, owner + ": "); !checked) return checked;
-  }
+  const std::vector<SettingField<Body>> numbers = bodyNumbersOf(formOf(body.shape));
+  if (Status checked = checkRows<Body>(numbers, body, owner + ": "); !checked) return checked;
   if (!contains(kPosePlace, body.place.position))
     return fail(fmt::format("stands {} m away; it takes 1e9 along each axis", length(body.place.position)));
   if (body.shape != BodyShape::grid) return {};

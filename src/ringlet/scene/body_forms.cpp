@@ -137,4 +137,11 @@ bool hasNumber(const BodyForm& form, const SettingField<Body>& number) {
   return shapes.empty() || std::ranges::find(shapes, form.name) != shapes.end();
 }
 
+std::vector<SettingField<Body>> bodyNumbersOf(const BodyForm& form) {
+  std::vector<SettingField<Body>> numbers;
+  for (const SettingField<Body>& number : bodyNumbers())
+    if (hasNumber(form, number)) numbers.push_back(number);
+  return numbers;
+}
+
 }  // namespace ringlet

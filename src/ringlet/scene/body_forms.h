@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "ringlet/scene/body.h"
 #include "ringlet/scene/setting_field.h"
@@ -44,5 +45,8 @@ std::span<const SettingField<Body>> bodyNumbers();
 
 /// Whether bodies of this shape have the number.
 bool hasNumber(const BodyForm& form, const SettingField<Body>& number);
+
+/// Those that they have.
+std::vector<SettingField<Body>> bodyNumbersOf(const BodyForm& form);
 
 }  // namespace ringlet

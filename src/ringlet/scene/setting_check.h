@@ -30,21 +30,17 @@ SettingNumbers numbersOf(const std::optional<T>& value) {
 
 /// The sentence that says which number is out of its range, if any is; `owner` stands before its key.
 template <class Owner>
-Status checkRow(const SettingField<Owner>& field, const Owner& settings, const std::string& owner) {
-  const SettingNumbers numbers =
-      std::visit([&](auto member) { return numbersOf(settings.*member); }, field.member);
-  for (const auto& [part, value] : numbers) {
-    if (!field.allowed.contains(value))
-      return Error{fmt::format("{}{}{} is {}; it must be from {} to {}", owner, field.key, part, value,
-                               field.allowed.low, field.allowed.high)};
-  }
-  return {};
-}
-template <class Owner>
 Status checkRows(std::span<const SettingField<Owner>> fields, const Owner& settings,
                  const std::string& owner) {
-  for (const SettingField<Owner>& field : fields)
-    if (Status checked = checkRow(field, settings, owner); !checked) return checked;
+  for (const SettingField<Owner>& field : fields) {
+    const SettingNumbers numbers =
+        std::visit([&](auto member) { return numbersOf(settings.*member); }, field.member);
+    for (const auto& [part, value] : numbers) {
+      if (!field.allowed.contains(value))
+        return Error{fmt::format("{}{}{} is {}; it must be from {} to {}", owner, field.key, part, value,
+                                 field.allowed.low, field.allowed.high)};
+    }
+  }
   return {};
 }
 

@@ -16,6 +16,7 @@
 #include "ringlet/bodies/mesh_grid.h"
 #include "ringlet/groom/generate.h"
 #include "ringlet/groom/groom_file.h"
+#include "ringlet/groom/root_ends.h"
 #include "ringlet/measure/groom_doubts.h"
 #include "ringlet/measure/joint_check.h"
 #include "ringlet/measure/material_suggestion.h"
@@ -177,9 +178,7 @@ Result<HeadScalp> loadedScalp(const SceneFile& file, LoadedScene& loaded) {
     loaded.warnings.push_back(fmt::format("{}: {}", name, warning));
 
   const Groom& groom = loaded.groom;
-  std::vector<Vec3d> roots;
-  for (std::size_t s = 0; s < groom.strandCount(); ++s)
-    roots.push_back(Vec3d(groom.strand(s).front()) * groom.metresPerUnit);
+  const std::vector<Vec3d> roots = rootPlaces(groom);
   const HeadScalpChoice binding{
       .start = scene.start, .farthest = scene.farthest, .offset = isHeads ? loaded.motion.start : Vec3d{}};
   const auto ends = doubtOfRootEnds(*mesh, groom, loaded.motion, binding, "the scalp " + name);

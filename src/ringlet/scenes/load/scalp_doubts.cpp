@@ -37,10 +37,8 @@ std::optional<std::string> doubtOfRootEnds(const MeshMotion& mesh, const Groom& 
 
 std::vector<std::string> doubtsOfRigidBodies(const LoadedScene& scene) {
   std::vector<std::string> doubts;
-  if (!scene.scalp) return doubts;
-  std::vector<Vec3d> roots;
-  for (std::size_t s = 0; s < scene.groom.strandCount(); ++s)
-    roots.push_back(Vec3d(scene.groom.strand(s).front()) * scene.groom.metresPerUnit);
+  if (!scene.scalp || scene.bodies.empty()) return doubts;
+  const std::vector<Vec3d> roots = rootPlaces(scene.groom);
   std::vector<double> atFirst(scene.bodies.size()), deepest(scene.bodies.size());
   for (int look = 0; look < kLooks; ++look) {
     const double t = scene.frameCount / scene.settings.framesPerSecond * look / (kLooks - 1);
