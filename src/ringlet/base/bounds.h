@@ -14,8 +14,8 @@ struct Bounds {
 
   /// About nothing yet: the first point that is added is both corners.
   static constexpr Bounds none() {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    return {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+    constexpr double most = std::numeric_limits<double>::infinity();
+    return {{most, most, most}, {-most, -most, -most}};
   }
   void add(Vec3d p) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
+
+#include "ringlet/base/bounds.h"
 
 namespace ringlet {
 namespace {
@@ -21,17 +22,15 @@ double largest(Vec3d v) { return std::max({v.x, v.y, v.z}); }
 
 BoxPairs::BoxPairs(std::span<const Box> boxes)
     : boxes_(boxes.begin(), boxes.end()), levels_(boxes.size(), kNoLevel) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  low_ = {kInfinity, kInfinity, kInfinity};
-  Vec3d high = -low_;
+  Bounds bounds = Bounds::none();
   double largestSize = 0;
   for (const Box& box : boxes) {
     if (!isFinite(box.centre) || !isFinite(box.halfSize)) continue;
-    low_ = {std::min(low_.x, box.centre.x), std::min(low_.y, box.centre.y), std::min(low_.z, box.centre.z)};
-    high = {std::max(high.x, box.centre.x), std::max(high.y, box.centre.y), std::max(high.z, box.centre.z)};
+    bounds.add(box.centre);
     largestSize = std::max(largestSize, 2 * largest(box.halfSize));
   }
-  const double extent = std::max(0.0, largest(high - low_));
+  low_ = bounds.low;
+  const double extent = std::max(0.0, largest(bounds.high - bounds.low));
   const double smallestCell = extent / kMostCells;
   double coarsest = std::max(largestSize * kCellMargin, smallestCell);
   if (!(coarsest > 0)) coarsest = 1;  // points in one place: any cell will do
