@@ -20,7 +20,8 @@ Simulation<Real>::Simulation(const Groom& groom, const Material& material, const
       previousHead_(oneStepEarlier),
       head_(start),
       firstPoint_(groom.firstPoint),
-      bodies_(bodies.begin(), bodies.end()) {
+      bodies_(bodies.begin(), bodies.end()),
+      bending_(bodies) {
   RINGLET_ASSERT(bodies.empty() || settings.integrator == Integrator::jacobi,
                  "bodies need the integrator jacobi");
   for (const Body& body : bodies_) bodyPoses_.push_back(body.poseAt(0, start));
@@ -109,7 +110,7 @@ void Simulation<Real>::carryRigidly(std::span<const std::uint32_t> strands) {
 
 template <class Real>
 void Simulation<Real>::stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
-                                 std::span<const BodyPose> rootPoses) {
+                                 std::span<const BodyPose> rootPoses, BodyPoints bodyPoints) {
   RINGLET_ASSERT(rootPoses.empty() || rootPoses.size() == stepPoses.size() * wholeStrands().size(),
                  "every strand has a pose in every step");
   const std::vector<BodyPose> carried =
@@ -118,6 +119,7 @@ void Simulation<Real>::stepFrame(std::span<const HeadPose> stepPoses, std::span<
   RINGLET_ASSERT(carried.size() == stepPoses.size() * bodies_.size(), "every body has a pose in every step");
   if (settings_.jumps(length(stepPoses.back().position - head_.position))) {
     carryTo(stepPoses.back());
+    bending_.jump(carried, bodyPoints);
     bodyPoses_.assign(carried.end() - static_cast<std::ptrdiff_t>(bodies_.size()), carried.end());
     if (!rootPoses.empty()) rootPoses_ = ofPieces(rootPoses.last(wholeStrands().size()));
     previousRootPoses_ = rootPoses_;
@@ -126,6 +128,7 @@ void Simulation<Real>::stepFrame(std::span<const HeadPose> stepPoses, std::span<
     fieldsBefore_ = fields_;
     return;
   }
+  bending_.beginFrame(bodyPoses_, carried, bodyPoints);
   for (std::size_t k = 0; k < stepPoses.size(); ++k) {
     const std::vector<BodyPose> roots =
         rootPoses.empty() ? rootPoses_
@@ -345,7 +348,7 @@ void Simulation<Real>::carryTo(const HeadPose& next) {
 template <class Real>
 void Simulation<Real>::stepOnce(std::size_t k, std::size_t steps, const HeadPose& next,
                                 std::span<const BodyPose> bodyPoses, const std::vector<BodyPose>& roots) {
-  const std::vector<BodyStep<Real>> bodies = bodySteps(next, bodyPoses);
+  const std::vector<BodyStep<Real>> bodies = bodySteps(k, next, bodyPoses);
   // Where hair meets as a volume the first solve, by which strands hear of each other, knows no bodies.
   const bool meetsAsOne = settings_.contacts.on && !contacts_.pairByPair;
   const std::vector<BodyStep<Real>> inFirstSolve = meetsAsOne ? std::vector<BodyStep<Real>>{} : bodies;
@@ -406,7 +409,7 @@ AirStep<Real> Simulation<Real>::airStep(const HeadPose& next) const {
 }
 
 template <class Real>
-std::vector<BodyStep<Real>> Simulation<Real>::bodySteps(const HeadPose& next,
+std::vector<BodyStep<Real>> Simulation<Real>::bodySteps(std::size_t k, const HeadPose& next,
                                                         std::span<const BodyPose> poses) const {
   std::vector<BodyStep<Real>> steps;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -419,7 +422,10 @@ std::vector<BodyStep<Real>> Simulation<Real>::bodySteps(const HeadPose& next,
                      .positionNext = toEigen<Real>(then),
                      .velocity = toEigen<Real>((then - now) / settings_.stepSeconds()),
                      .turn = toEigen<Real>(to.rotation * from.rotation.conjugate()),
-                     .seconds = static_cast<Real>(settings_.stepSeconds())});
+                     .seconds = static_cast<Real>(settings_.stepSeconds()),
+                     .shapeNow = bending_.shapeAt(b, k),
+                     .shapeNext = bending_.shapeAt(b, k + 1),
+                     .bending = bending_.share(k)});
   }
   return steps;
 }

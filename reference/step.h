@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "reference/bending_motion.h"
 #include "reference/kernels/contact_step.h"
 #include "reference/kernels/strand_step.h"
 #include "ringlet/base/archive.h"
@@ -50,7 +51,7 @@ class Simulation {
   /// them. bodyPoses: as bodyPosesOf gives them; without, all bodies are the head's. rootPoses[step * strands
   /// + strand]: each strand's own pose in the head's frame; without, they stay.
   void stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses = {},
-                 std::span<const BodyPose> rootPoses = {});
+                 std::span<const BodyPose> rootPoses = {}, BodyPoints bodyPoints = {});
   /// Strands' own poses before the first step and one step earlier; puts the hair there, at rest.
   void placeRoots(std::span<const BodyPose> now, std::span<const BodyPose> oneStepEarlier);
   /// Where bodies are before the first step; without, where they are at t = 0.
@@ -139,7 +140,8 @@ class Simulation {
   std::vector<ForceField> fieldsAtStep(std::size_t k, std::size_t steps) const;
 
   // In double, as headStep.
-  std::vector<BodyStep<Real>> bodySteps(const HeadPose& next, std::span<const BodyPose> poses) const;
+  std::vector<BodyStep<Real>> bodySteps(std::size_t k, const HeadPose& next,
+                                        std::span<const BodyPose> poses) const;
 
   // For strand s. In double: the head's velocity is a small difference of positions that may be large.
   HeadStep<Real> headStep(const HeadPose& next, std::size_t s, const BodyPose& nextRoot) const;
@@ -162,6 +164,7 @@ class Simulation {
   std::vector<Rotation<double>> restTurns_;              // likewise, RestStrand::restTurn
   std::vector<bool> isRigid_;                            // of each strand
   std::vector<Body> bodies_;
+  BendingMotion<Real> bending_;
   std::vector<WindMode> windModes_;
   Field<double> forces_;               // from outside; empty: none
   Field<double> goalsBefore_, goals_;  // at the frame's start and end, in the groom's axes [m]; empty: none

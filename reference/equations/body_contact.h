@@ -15,6 +15,8 @@
 
 namespace ringlet::reference {
 
+// Shape: whatever bodyDistance() takes, a Body or the BodyShapeAt of a time (kernels/bending_field.h).
+
 inline constexpr double kTouchDistance = 1e-5;  // [m]: nearer counts as touching; a tenth of a hair
 inline constexpr double kOutside = 1e-4;    // [m]: no deeper counts as outside, and is put outside at once
 inline constexpr int kTraceTurns = 16;      // looks along a way; grazing ones give up and count as touching
@@ -42,17 +44,17 @@ struct Touch {
   Real along = 0;                               // edges: share of the way from particle i to i + 1
 };
 
-template <class Real>
-Touch<Real> traceParticle(const Body& body, const Vector3<Real>& y0, const Vector3<Real>& y1) {
+template <class Real, class Shape>
+Touch<Real> traceParticle(const Shape& body, const Vector3<Real>& y0, const Vector3<Real>& y1) {
   const Vector3<Real> way = y1 - y0;
   const Real length = way.norm();
-  Touch<Real> touch{.surface = bodyDistance(body, y0), .place = y0, .from = y0};
+  Touch<Real> touch{.surface = bodyDistance<Real>(body, y0), .place = y0, .from = y0};
   Real gone = 0;
   for (int turn = 0; turn < kTraceTurns && touch.surface.distance > Real(kTouchDistance); ++turn) {
     gone += touch.surface.distance;
     if (gone >= length) return touch;
     touch.place = y0 + gone / length * way;
-    touch.surface = bodyDistance(body, touch.place);
+    touch.surface = bodyDistance<Real>(body, touch.place);
   }
   touch.found = true;
   return touch;
@@ -79,10 +81,10 @@ struct EdgeSurface {
   Real nearest = 0;  // distance of the nearest of ends and place [m]
 };
 /// An edge with an end inside leaves with its particle: `isWithin` is false for it too.
-template <class Real>
-EdgeSurface<Real> edgeDistance(const Body& body, const Vector3<Real>& a, const Vector3<Real>& b) {
+template <class Real, class Shape>
+EdgeSurface<Real> edgeDistance(const Shape& body, const Vector3<Real>& a, const Vector3<Real>& b) {
   const Vector3<Real> edge = b - a;
-  const Surface<Real> atA = bodyDistance(body, a), atB = bodyDistance(body, b);
+  const Surface<Real> atA = bodyDistance<Real>(body, a), atB = bodyDistance<Real>(body, b);
   const Real slopeA = atA.normal.dot(edge), slopeB = atB.normal.dot(edge);
   EdgeSurface<Real> result;
   result.isWithin = slopeA < Real(0) && slopeB > Real(0) && atA.distance >= Real(-kOutside) &&
@@ -104,17 +106,17 @@ EdgeSurface<Real> edgeDistance(const Body& body, const Vector3<Real>& a, const V
     result.along = atA.distance < atB.distance ? Real(0) : Real(1);
   }
   result.place = a + result.along * edge;
-  result.surface = bodyDistance(body, result.place);
+  result.surface = bodyDistance<Real>(body, result.place);
   result.nearest = std::min({atA.distance, atB.distance, result.surface.distance});
   return result;
 }
 
 /// Both ends move straight, a0 to a1 and b0 to b1, until the edge touches between them, or one of them does.
-template <class Real>
-Touch<Real> traceEdge(const Body& body, const Vector3<Real>& a0, const Vector3<Real>& a1,
+template <class Real, class Shape>
+Touch<Real> traceEdge(const Shape& body, const Vector3<Real>& a0, const Vector3<Real>& a1,
                       const Vector3<Real>& b0, const Vector3<Real>& b1) {
   const Real longest = std::max((a1 - a0).norm(), (b1 - b0).norm());
-  EdgeSurface<Real> deepest = edgeDistance(body, a0, b0);
+  EdgeSurface<Real> deepest = edgeDistance<Real>(body, a0, b0);
   Real gone = 0;
   for (int turn = 0; turn < kTraceTurns && deepest.nearest > Real(kTouchDistance); ++turn) {
     gone += deepest.nearest;

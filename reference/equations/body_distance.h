@@ -55,22 +55,27 @@ Surface<Real> gridDistance(const DistanceGrid& grid, const Vector3<Real>& place)
   const Vector3<Real> base = nearest.array().floor().matrix().cwiseMin(counts - Vector3<Real>::Ones());
   const Vector3<Real> f = nearest - base;
 
-  // The eight corners, their weights and the weights' derivatives.
-  Real distance = 0;
-  Vector3<Real> gradient = Vector3<Real>::Zero();
+  // The eight corners and their weights; slopes by differences, which are 0 where all corners are alike.
+  Real corners[8];
+  Vector3<Real> weights[8];
   for (int corner = 0; corner < 8; ++corner) {
     std::uint32_t at[3];
-    Vector3<Real> weight, slope;
     for (int axis = 0; axis < 3; ++axis) {
       const int upper = corner >> axis & 1;
       at[axis] = static_cast<std::uint32_t>(base[axis]) + static_cast<std::uint32_t>(upper);
-      weight[axis] = upper ? f[axis] : 1 - f[axis];
-      slope[axis] = upper ? Real(1) : Real(-1);
+      weights[corner][axis] = upper ? f[axis] : 1 - f[axis];
     }
-    const Real d = gridCorner<Real>(grid, at[0], at[1], at[2]);
-    distance += d * weight.prod();
-    gradient += d * Vector3<Real>(slope.x() * weight.y() * weight.z(), weight.x() * slope.y() * weight.z(),
-                                  weight.x() * weight.y() * slope.z());
+    corners[corner] = gridCorner<Real>(grid, at[0], at[1], at[2]);
+  }
+  Real distance = 0;
+  Vector3<Real> gradient = Vector3<Real>::Zero();
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vector3<Real>& weight = weights[corner];
+    distance += corners[corner] * weight.prod();
+    for (int axis = 0; axis < 3; ++axis)
+      if ((corner >> axis & 1) == 0)
+        gradient[axis] += (corners[corner | 1 << axis] - corners[corner]) * weight[(axis + 1) % 3] *
+                          weight[(axis + 2) % 3];
   }
   Vector3<Real> normal = directionOr<Real>(gradient, Vector3<Real>::UnitY());
   if (beyond.norm() > Real(0)) {

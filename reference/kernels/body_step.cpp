@@ -23,7 +23,7 @@ std::size_t buriedCount(const RestStrand<Real>& rest, const BodyStep<Real>& step
   std::size_t count = 0;
   if (rest.falls()) return 0;
   while (count < std::min(kMostBuried, positions.size()) &&
-         bodyDistance(*step.body, step.atStart(positions[count])).distance < Real(-kOutside))
+         bodyDistance<Real>(step.shapeNow, step.atStart(positions[count])).distance < Real(-kOutside))
     ++count;
   return count;
 }
@@ -35,22 +35,31 @@ struct KeptOut {
   Vector3<Real> place, normal;
 };
 template <class Real>
-KeptOut<Real> keptOut(const Body& body, const Vector3<Real>& y0, Vector3<Real> y1) {
-  if (bodyDistance(body, y0).distance < Real(-kOutside)) return {};
-  const Touch<Real> touch = traceParticle(body, y0, y1);
-  if (!touch.found) return {};
+KeptOut<Real> keptOut(const BodyStep<Real>& step, const Vector3<Real>& y0, Vector3<Real> y1) {
+  if (bodyDistance<Real>(step.shapeNow, y0).distance < Real(-kOutside)) return {};
+  const Touch<Real> touch =
+      traceParticle<Real>(step.shapeNow, y0, Vector3<Real>(y1 - step.bentOnPath(y0, y1)));
+  // The surface by which it ends may move otherwise than the one that it was traced to.
+  const bool isWithin = step.shapeNext.field && bodyDistance<Real>(step.shapeNext, y1).distance < Real(0);
+  if (!touch.found && !isWithin) return {};
+  const Vector3<Real> held = touch.place + step.bent(touch.place);
   const Vector3<Real> came = y1;
   // Onto the plane where it touched, then out of what curves beyond it; else back to the place itself.
-  const Real beyond = touch.surface.normal.dot(y1 - touch.place) + touch.surface.distance;
+  const Real beyond = touch.surface.normal.dot(y1 - held) + touch.surface.distance;
   Vector3<Real> normal = touch.surface.normal;
-  y1 -= std::min(beyond, Real(0)) * normal;
+  if (touch.found) y1 -= std::min(beyond, Real(0)) * normal;
   for (int turn = 0; turn < 3; ++turn) {
-    const Surface<Real> surface = bodyDistance(body, y1);
+    const Surface<Real> surface = bodyDistance<Real>(step.shapeNext, y1);
     if (surface.distance >= Real(0)) continue;
     y1 -= surface.distance * surface.normal;
     normal = surface.normal;
   }
-  if (bodyDistance(body, y1).distance < Real(-kOutside)) y1 = touch.place;
+  if (bodyDistance<Real>(step.shapeNext, y1).distance < Real(-kOutside)) {
+    y1 = held;
+    // Another surface has closed in on it.
+    const Surface<Real> there = bodyDistance<Real>(step.shapeNext, held);
+    if (step.shapeNext.field) y1 -= std::min(there.distance, Real(0)) * there.normal;
+  }
   return {(y1 - came).norm() > Real(0), y1, normal};
 }
 
@@ -62,13 +71,15 @@ bool findPushes(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>&
   pushes.assign(rest.particleCount(), {});
   bool any = false;
   for (const BodyStep<Real>& step : bodies) {
-    const Body& body = *step.body;
-    const Real T = step.seconds, friction = static_cast<Real>(body.friction);
+    const Real T = step.seconds, friction = static_cast<Real>(step.body->friction);
     const auto start = [&](std::size_t i) { return step.atStart(positions[i]); };
-    const auto end = [&](std::size_t i) { return step.atEnd(positions[i] + T * free[i]); };
+    const auto end = [&](std::size_t i) -> Vector3<Real> {
+      const Vector3<Real> y1 = step.atEnd(positions[i] + T * free[i]);
+      return y1 - step.bentOnPath(start(i), y1);
+    };
     for (std::size_t i = std::max(rest.pinnedCount(), buriedCount(rest, step, positions));
          i < rest.particleCount(); ++i) {
-      const Touch<Real> touch = traceParticle(body, start(i), end(i));
+      const Touch<Real> touch = traceParticle<Real>(step.shapeNow, start(i), end(i));
       if (!touch.found) continue;
       const bool isDeep = touch.surface.distance < Real(-kDeep);
       Vector3<Real> n = step.outward(touch.surface.normal);
@@ -81,7 +92,7 @@ bool findPushes(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>&
       any = true;
     }
     for (std::size_t i = 0; i + 1 < rest.particleCount(); ++i) {
-      const Touch<Real> touch = traceEdge(body, start(i), end(i), start(i + 1), end(i + 1));
+      const Touch<Real> touch = traceEdge<Real>(step.shapeNow, start(i), end(i), start(i + 1), end(i + 1));
       if (!touch.found) continue;
       const Vector3<Real> n = step.outward(touch.surface.normal);
       const Real shares[2] = {1 - touch.along, touch.along};
@@ -134,7 +145,7 @@ void keepOut(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>& bo
              const Field<Real>& starts, FieldView<Real> positions, FieldView<Real> velocities) {
   for (const BodyStep<Real>& step : bodies) {
     for (std::size_t i = rest.pinnedCount(); i < rest.particleCount(); ++i) {
-      const KeptOut<Real> kept = keptOut(*step.body, step.atStart(starts[i]), step.atEnd(positions[i]));
+      const KeptOut<Real> kept = keptOut(step, step.atStart(starts[i]), step.atEnd(positions[i]));
       if (!kept.moved) continue;
       const Vector3<Real> place = step.fromEnd(kept.place), n = step.outward(kept.normal);
       velocities[i] += slowedInward<Real>(velocities[i] - step.velocityAt(starts[i]), n,
@@ -147,7 +158,7 @@ void keepOut(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>& bo
   for (const BodyStep<Real>& step : bodies) {
     for (std::size_t i = 0; i + 1 < rest.particleCount(); ++i) {
       const EdgeSurface<Real> deepest =
-          edgeDistance(*step.body, step.atEnd(positions[i]), step.atEnd(positions[i + 1]));
+          edgeDistance<Real>(step.shapeNext, step.atEnd(positions[i]), step.atEnd(positions[i + 1]));
       if (!deepest.isWithin || deepest.surface.distance >= Real(0)) continue;
       const Vector3<Real> n = step.outward(deepest.surface.normal);
       const Real out = std::min(-deepest.surface.distance, Real(kLeaveSpeed) * step.seconds);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "reference/fields.h"
+#include "reference/kernels/bending_field.h"
 #include "reference/rest_strand.h"
 #include "ringlet/scene/body.h"
 
@@ -19,6 +20,9 @@ struct BodyStep {
   Vector3<Real> velocity;  // of its origin, relative to the head's translation in this step [m/s]
   Rotation<Real> turn;     // from rotationNow to rotationNext; from double, where the two would lose digits
   Real seconds = 0;
+  BodyShapeAt<Real> shapeNow, shapeNext;
+  Real bending =
+      0;  // share of the way from shapeNow's field to the next that the surface moves on in the step
 
   Vector3<Real> atStart(const Vector3<Real>& p) const {
     return rotationNow.conjugate() * Vector3<Real>(p - positionNow);
@@ -28,11 +32,21 @@ struct BodyStep {
   }
   Vector3<Real> fromEnd(const Vector3<Real>& y) const { return rotationNext * y + positionNext; }
   Vector3<Real> outward(const Vector3<Real>& normal) const { return rotationNext * normal; }
-  /// Of the place of the body that is at p when the step starts [m/s].
+  /// How far the surface near y moves in the step, seen from what carries the body [m].
+  Vector3<Real> bent(const Vector3<Real>& y) const {
+    if (!shapeNow.field) return Vector3<Real>::Zero();
+    return bending * shapeNow.field->wayNear(y);
+  }
+  /// The same for a path from y0 to y1: of the surface near its start, or else near its end.
+  Vector3<Real> bentOnPath(const Vector3<Real>& y0, const Vector3<Real>& y1) const {
+    if (!shapeNow.field) return Vector3<Real>::Zero();
+    return bent(shapeNow.field->isNear(y0) ? y0 : y1);
+  }
+  /// Of the surface near a place that is at p when the step starts [m/s].
   Vector3<Real> velocityAt(const Vector3<Real>& p) const {
     const Vector3<Real> arm = p - positionNow, q = turn.vec();
     const Vector3<Real> across = Real(2) * q.cross(arm);
-    return velocity + (turn.w() * across + q.cross(across)) / seconds;
+    return velocity + (turn.w() * across + q.cross(across) + rotationNext * bent(atStart(p))) / seconds;
   }
 };
 

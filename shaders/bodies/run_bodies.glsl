@@ -163,14 +163,19 @@ void askOf(BodyStep body, int k, int l, NextParticle next, vec3 edgeBefore, inou
   vec3 c = RINGLET_PICK(p, next.p, l);
   vec3 va = RINGLET_PICK(v, next.v, k);
   vec3 vc = RINGLET_PICK(v, next.v, l);
-  Touch touch = traceEdge(body.rest, placeAtStart(body, a), placeAtEnd(body, a + T * va), placeAtStart(body, c),
-                          placeAtEnd(body, c + T * vc));
+  vec3 a0 = placeAtStart(body, a);
+  vec3 c0 = placeAtStart(body, c);
+  vec3 a1 = placeAtEnd(body, a + T * va);
+  vec3 c1 = placeAtEnd(body, c + T * vc);
+  Touch touch = traceEdge(body.rest, body.before.field, a0, a1 - bentOnPath(body, a0, a1), c0,
+                          c1 - bentOnPath(body, c0, c1));
   touched |= touch.passes ? 0 : 1;
   bool isDeep = isOne && touch.surface.distance < -kDeep;
   vec3 n = outward(body, touch.surface.normal);
   if (isDeep) n = wayOutOfDepth(n, tangentAt(k, edgeBefore));
   vec2 shares = isOne ? vec2(1, 0) : vec2(1.0 - touch.along, touch.along);
-  vec3 u = bodyVelocityAt(body, shares.x * a + shares.y * c, T);
+  vec3 from = shares.x * a + shares.y * c;
+  vec3 u = surfaceVelocityAt(body, from, bendingAtStart(body, placeAtStart(body, from)), T);
   float least = dot(n, u) + leastParting(touch, T);
   float deficit = least - dot(n, shares.x * va + shares.y * vc);
   if (!(isOne ? !touch.passes : touch.found) || !(deficit > 0.0)) return;
@@ -220,9 +225,11 @@ bool findPushes(uint step) {
           int k = int(part) * kPart + j;
           vec3 position = RINGLET_LOOK_AT(p, next.p, part, j);
           vec3 velocity = RINGLET_LOOK_AT(v, next.v, part, j);
-          float way = T * length(velocity - bodyVelocityAt(body, position, T));
-          float distance = bodyDistance(body.rest, placeAtStart(body, position)).distance;
-          float left = distance - 1.001 * way - 2.0 * kTouchDistance;
+          vec3 place = placeAtStart(body, position);
+          Bending bending = bendingAtStart(body, place);
+          float way = T * length(velocity - surfaceVelocityAt(body, position, bending, T));
+          float distance = surfaceAt(body.rest, body.before.field, place, bending).distance;
+          float left = distance - 1.001 * way - 2.0 * kTouchDistance - bendingRoom(body, bending);
           isBuried = isBuried && k < kMostBuried && distance < -kOutside;
           if (k < RUN && isFree(k) && left <= 0.0 && !isBuried) particleBits |= 1u << (k - before - 1);
           if (k > 0 && k <= RUN && isEdge(k - 1) && left + roomBefore <= length(position - placeBefore))
@@ -289,8 +296,11 @@ void keepParticlesOut(uint step, Room room, bool isDone) {
         [[unroll]] for (int j = 0; j < kPart; ++j) {
           int k = int(part) * kPart + j;
           vec3 y1 = placeAtEnd(body, RINGLET_LOOK_AT(p, vec3(0), part, j));
-          float way = length(y1 - placeAtStart(body, RINGLET_LOOK_AT(pStart, vec3(0), part, j)));
-          bool isNear = bodyDistance(body.rest, y1).distance <= 1.001 * way + 2.0 * kTouchDistance;
+          vec3 y0 = placeAtStart(body, RINGLET_LOOK_AT(pStart, vec3(0), part, j));
+          Bending bending = bendingAtStart(body, y0);
+          float way = length(y1 - bent(body, bending) - y0);
+          bool isNear = surfaceAt(body.rest, body.after.field, y1).distance <=
+                        1.001 * way + 2.0 * kTouchDistance + bendingRoom(body, bending);
           if (k < RUN && isFree(k) && isNear) bits |= 1u << (k - begin);
         }
       } while (++part < kLookParts && !fillsWord(part));
@@ -298,10 +308,11 @@ void keepParticlesOut(uint step, Room room, bool isDone) {
         int k = begin + findLSB(bits);
         bits &= bits - 1;
         vec3 start = RINGLET_PICK(pStart, vec3(0), k);
-        KeptOut kept = keptOut(body.rest, placeAtStart(body, start), placeAtEnd(body, RINGLET_PICK(p, vec3(0), k)));
+        vec3 y0 = placeAtStart(body, start);
+        KeptOut kept = keptOut(body, y0, placeAtEnd(body, RINGLET_PICK(p, vec3(0), k)));
         vec3 place = outOfBody(body, kept.place);
         vec3 n = outward(body, kept.normal);
-        vec3 slowed = slowedInward(RINGLET_PICK(v, vec3(0), k) - bodyVelocityAt(body, start, T), n,
+        vec3 slowed = slowedInward(RINGLET_PICK(v, vec3(0), k) - surfaceVelocityAt(body, start, bendingAtStart(body, y0), T), n,
                                    dot(n, place - RINGLET_PICK(p, vec3(0), k)), T);
         if (kept.moved) {
           RINGLET_AT(j, k, moveParticle(j, place, slowed))
@@ -345,7 +356,7 @@ void keepEdgesOut(uint step, Room room, bool isDone) {
         [[unroll]] for (int j = 0; j < kPart; ++j) {
           int k = int(part) * kPart + j;
           vec3 here = RINGLET_LOOK_AT(p, pNext, part, j);
-          float distance = bodyDistance(body.rest, placeAtEnd(body, here)).distance;
+          float distance = surfaceAt(body.rest, body.after.field, placeAtEnd(body, here)).distance;
           bool isNear = distance + distanceBefore <= 1.001 * length(here - placeBefore);
           if (k > 0 && k <= RUN && isEdge(k - 1) && isNear) bits |= 1u << (k - before - 1);
           distanceBefore = distance;
@@ -355,7 +366,7 @@ void keepEdgesOut(uint step, Room room, bool isDone) {
       if (bits != 0) do {
         int k = before + findLSB(bits);
         bits &= bits - 1;
-        EdgeSurface deepest = edgeDistance(body.rest, placeAtEnd(body, RINGLET_PICK(p, pNext, k)),
+        EdgeSurface deepest = edgeDistance(body.rest, body.after.field, placeAtEnd(body, RINGLET_PICK(p, pNext, k)),
                                            placeAtEnd(body, RINGLET_PICK(p, pNext, k + 1)));
         if (!deepest.isWithin || deepest.surface.distance >= 0.0) continue;
         vec3 n = outward(body, deepest.surface.normal);
@@ -365,7 +376,8 @@ void keepEdgesOut(uint step, Room room, bool isDone) {
         vec3 start =
             shares.x * RINGLET_PICK(pStart, startNext, k) + shares.y * RINGLET_PICK(pStart, startNext, k + 1);
         vec3 velocity = shares.x * RINGLET_PICK(v, vNext, k) + shares.y * RINGLET_PICK(v, vNext, k + 1);
-        vec3 slowed = slowedInward(velocity - bodyVelocityAt(body, start, T), n, outBy, T);
+        Bending bending = bendingAtStart(body, placeAtStart(body, start));
+        vec3 slowed = slowedInward(velocity - surfaceVelocityAt(body, start, bending, T), n, outBy, T);
         int end = 0;
         do {
           float share = isPinnedAt(k + end) ? 0.0 : end == 0 ? part.x : part.y;

@@ -1,11 +1,13 @@
 // Where a particle or an edge touches a body within a step, and the velocities it may then have (our choice;
 // the paper has no bodies). In the body's frame, where the body is at rest, motion is traced by the distance
-// to the surface, which cannot be overshot ("sphere tracing", Hart 1996). Mirrored by
+// to the surface, which cannot be overshot ("sphere tracing", Hart 1996). Of a body that bends, that is the
+// distance in the field of the step's start, and a path is what is left of it once the surface's own way is taken
+// off. Mirrored by
 // reference/equations/body_contact.h, which has a sketch.
 #ifndef RINGLET_BODY_CONTACT
 #define RINGLET_BODY_CONTACT
 
-#include "shared/body_buffers.glsl"
+#include "shared/bending_buffers.glsl"
 
 const float kDone = 1e30;           // [m] along the path: tracing has ended. Results are carried by the loop,
                                     // since lavapipe keeps executing lanes that have left it and preserves
@@ -39,7 +41,7 @@ struct Touch {
   float before;     // particles: distance at the step's start [m]
 };
 
-Touch traceParticle(BodyRest body, vec3 y0, vec3 y1) {
+Touch traceParticle(BodyRest body, float field, vec3 y0, vec3 y1) {
   vec3 way = y1 - y0;
   float wayLength = length(way);
   Touch touch = Touch(true, false, Surface(0.0, vec3(0)), y0, y0, 0.0, 0.0);
@@ -47,7 +49,7 @@ Touch traceParticle(BodyRest body, vec3 y0, vec3 y1) {
   int turn = 0;
   do {
     vec3 place = y0 + (gone / max(wayLength, 1e-20)) * way;
-    Surface surface = bodyDistance(body, place);
+    Surface surface = surfaceAt(body, field, place);
     if (gone < kDone) {
       touch.place = place;
       touch.surface = surface;
@@ -80,17 +82,17 @@ struct EdgeSurface {
   vec3 place;
   float nearest;  // smallest distance of the ends and the place [m]
 };
-EdgeSurface edgeDistance(BodyRest body, vec3 a, vec3 b) {
+EdgeSurface edgeDistance(BodyRest body, float field, vec3 a, vec3 b) {
   vec3 edge = b - a;
-  Surface atA = bodyDistance(body, a);
-  Surface atB = bodyDistance(body, b);
+  Surface atA = surfaceAt(body, field, a);
+  Surface atB = surfaceAt(body, field, b);
   float slopeA = dot(atA.normal, edge);
   float slopeB = dot(atB.normal, edge);
   bool isWithin = slopeA < 0.0 && slopeB > 0.0 && min(atA.distance, atB.distance) >= -kOutside;
   // First where its end slopes meet, which is the place far from a thin body; then as a cubic, which fits
   // near a round one.
   float first = clamp((atB.distance - slopeB - atA.distance) / min(slopeA - slopeB, -1e-20), 0.0, 1.0);
-  Surface there = bodyDistance(body, a + first * edge);
+  Surface there = surfaceAt(body, field, a + first * edge);
   float slope = dot(there.normal, edge);
   float rest = 1.0 - first;
   bool isBefore = slope > 0.0;
@@ -99,12 +101,12 @@ EdgeSurface edgeDistance(BodyRest body, vec3 a, vec3 b) {
   float along = isWithin ? (isBefore ? first * least : first + rest * least)
                          : (atA.distance < atB.distance ? 0.0 : 1.0);
   vec3 place = a + along * edge;
-  Surface surface = bodyDistance(body, place);
+  Surface surface = surfaceAt(body, field, place);
   return EdgeSurface(isWithin, along, surface, place, min(min(atA.distance, atB.distance), surface.distance));
 }
 
 /// Both ends move straight, a0 to a1 and b0 to b1, until the edge touches between them, or an end touches.
-Touch traceEdge(BodyRest body, vec3 a0, vec3 a1, vec3 b0, vec3 b1) {
+Touch traceEdge(BodyRest body, float field, vec3 a0, vec3 a1, vec3 b0, vec3 b1) {
   float longest = max(length(a1 - a0), length(b1 - b0));
   float gone = 0.0;
   EdgeSurface deepest = EdgeSurface(false, 0.0, Surface(0.0, vec3(0)), a0, 0.0);
@@ -112,7 +114,7 @@ Touch traceEdge(BodyRest body, vec3 a0, vec3 a1, vec3 b0, vec3 b1) {
   bool passes = false;
   do {
     float share = gone / max(longest, 1e-20);
-    EdgeSurface here = edgeDistance(body, a0 + share * (a1 - a0), b0 + share * (b1 - b0));
+    EdgeSurface here = edgeDistance(body, field, a0 + share * (a1 - a0), b0 + share * (b1 - b0));
     bool touches = here.nearest <= kTouchDistance || turn == kTraceTurns;
     if (gone < kDone) {
       deepest = here;
@@ -164,31 +166,41 @@ vec3 slowedInward(vec3 relative, vec3 n, float shift, float T) {
 }
 
 /// A particle that began the step outside, at y0, and has moved to y1: moves it out of the body where it came
-/// in.
+/// in. The place of contact moves on with the surface; where another surface has closed in on it, it leaves that
+/// one.
 struct KeptOut {
   bool moved;
   vec3 place;
   vec3 normal;
 };
-KeptOut keptOut(BodyRest body, vec3 y0, vec3 y1) {
-  Touch touch = traceParticle(body, y0, y1);
+KeptOut keptOut(BodyStep body, vec3 y0, vec3 y1) {
+  Touch touch = traceParticle(body.rest, body.before.field, y0, y1 - bentOnPath(body, y0, y1));
+  vec3 held = touch.place + bent(body, touch.place);
   // Onto the plane where it touched, then out of what curves beyond it; if that fails, back to the place of
   // contact.
-  float beyond = dot(touch.surface.normal, y1 - touch.place) + touch.surface.distance;
+  float beyond = dot(touch.surface.normal, y1 - held) + touch.surface.distance;
   vec3 normal = touch.surface.normal;
-  vec3 y = y1 - min(beyond, 0.0) * normal;
+  vec3 y = touch.found ? y1 - min(beyond, 0.0) * normal : y1;
+  bool isWithin = false;  // though nothing was met: the surface by which it ends moves otherwise
   float depth = -1.0;
   int turn = 0;
   do {
-    Surface surface = bodyDistance(body, y);
+    Surface surface = surfaceAt(body.rest, body.after.field, y);
     if (depth < 0.0) depth = surface.distance;
+    isWithin = isWithin || (kBends && turn == 0 && surface.distance < 0.0);
     if (depth < 0.0 && turn < 3) {
       y -= depth * surface.normal;
       normal = surface.normal;
     }
   } while (depth < 0.0 && ++turn <= 3);
-  if (depth < -kOutside) y = touch.place;
-  return KeptOut(touch.before >= -kOutside && touch.found && y != y1, y, normal);
+  if (depth < -kOutside) {
+    y = held;
+    if (kBends) {
+      Surface closing = surfaceAt(body.rest, body.after.field, held);
+      y -= min(closing.distance, 0.0) * closing.normal;
+    }
+  }
+  return KeptOut(touch.before >= -kOutside && (touch.found || isWithin) && y != y1, y, normal);
 }
 
 #endif

@@ -11,14 +11,18 @@ namespace ringlet::layout {
 // Bindings in set 0, of strand_step and of other kernels that use bodies.
 RINGLET_CONSTANT uint kBindBodies = 15;      // BodyRest[bodies]
 RINGLET_CONSTANT uint kBindBodyPoses = 16;   // BodyPose[steps + 1][bodies]
-RINGLET_CONSTANT uint kBindGridCells = 17;   // uvec4[cells]: the distances of a cell's corners, see gridDistance
+RINGLET_CONSTANT uint kBindGridPairs = 17;   // uint[corners of all grids]: pairs of distances, see gridDistance
 RINGLET_CONSTANT uint kBindAir = 18;         // StepAir[steps]
 RINGLET_CONSTANT uint kBindWindModes = 19;   // WindWave[kWindWaves]
-RINGLET_CONSTANT uint kBindBodyTexels = 20;  // 5 a body
+RINGLET_CONSTANT uint kBindBodyTexels = 20;  // 6 a body
 RINGLET_CONSTANT uint kBindBodyPoseTexels = 21;  // 4 a pose
-RINGLET_CONSTANT uint kBindGridCellTexels = 22;
+RINGLET_CONSTANT uint kBindGridPairTexels = 22;  // four pairs each
 RINGLET_CONSTANT uint kBindAirTexels = 23;       // 4 a step
 RINGLET_CONSTANT uint kBindWindModeTexels = 24;  // 2 a mode
+RINGLET_CONSTANT uint kBindBodyKeys = 42;    // uint[corners of bodies that bend]: see meshKey
+RINGLET_CONSTANT uint kBindBodyWays = 43;    // vec4[triangles of bodies that bend]: see BodyPose::field
+RINGLET_CONSTANT uint kBindBodyKeyTexels = 44;  // four keys each
+RINGLET_CONSTANT uint kBindBodyWayTexels = 45;
 
 RINGLET_CONSTANT uint kWindWaves = 12;   // modes of the turbulent wind; a multiple of 4
 
@@ -30,14 +34,20 @@ struct BodyRest {
   vec3 gridOrigin;   // [m]
   float cell;        // of the grid [m]
   uint cells[3];     // of the grid
-  uint firstCell;
+  uint firstPair;    // of its grid's corners
   float friction;
-  uint shape;        // kShapeBox, kShapePlane or kShapeGrid
+  uint shape;         // kShape...
+  // Of a body that bends: of copy 0 of its field.
+  uint firstKey;
+  uint triangleBits;  // of a key, see MeshRest
+  uint firstWay;
+  uint triangleCount;
   uint unused[2];
 };
 RINGLET_CONSTANT uint kShapeBox = 0;
 RINGLET_CONSTANT uint kShapePlane = 1;
 RINGLET_CONSTANT uint kShapeGrid = 2;
+RINGLET_CONSTANT uint kShapeField = 3;  // of a body that bends: grids made anew while it moves, see mesh_fields.h
 
 // The pose of a body, relative to the head's origin, along world axes. Pose 0 is the frame's start, 1 + k the
 // end of step k.
@@ -46,7 +56,9 @@ struct BodyPose {
   float moves;    // largest distance by which a point of it moves in the step that ends here [m]
   vec4 rotation;  // quaternion (x, y, z, w)
   vec4 turn;      // rotation from the pose before to this one
-  vec4 velocity;  // xyz: of its origin in that step, relative to the head's translation [m/s]
+  vec3 velocity;  // of its origin in that step, relative to the head's translation [m/s]
+  float field;    // of a body that bends: which copy of its field is meant, and by which share of the way to the
+                  // next copy the surface has moved on since
 };
 
 // The air in a step, relative to the head's translation.

@@ -12,6 +12,7 @@
 #include <random>
 
 #include "layout/strands.h"
+#include "parity/sample_bodies.h"
 #include "reference/step.h"
 #include "ringlet/solver/diagnostics.h"
 
@@ -427,7 +428,10 @@ std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c,
   setSampleFields(*simulation, c, head.now, 0, T);
   const std::vector<double> end{T};
   const std::vector<BodyPose> bodyPoses = bodyPosesOf(c.bodies, std::span(&head.next, 1), end);
-  if (Status stepped = simulation->stepFrame(std::span(&head.next, 1), bodyPoses, rootsNext); !stepped)
+  const std::vector<std::vector<Vec3d>> bent = bentInWorld(c.bodies, bodyPoses, end);
+  const std::vector<std::span<const Vec3d>> points(bent.begin(), bent.end());
+  if (Status stepped = simulation->stepFrame(std::span(&head.next, 1), bodyPoses, rootsNext, points);
+      !stepped)
     return {failed("stepFrame", stepped.error())};
   const auto found = simulation->state();
   if (!found) return {failed("state", found.error())};
@@ -436,7 +440,7 @@ std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c,
   if (!forces.empty()) expected.setForces(forces);
   for (const auto& places : {goals.first, goals.second}) goals.set(expected, places);
   setSampleFields(expected, c, head.now, 0, T);
-  expected.stepFrame(std::span(&head.next, 1), bodyPoses, rootsNext);
+  expected.stepFrame(std::span(&head.next, 1), bodyPoses, rootsNext, points);
   return fieldErrors(c, *simulation, *found, expected);
 }
 
@@ -504,9 +508,11 @@ FieldError oneFrameError(const ComputeDevice& device, const ParityCase& c, int f
       std::ranges::copy(roots.at(times.back()), std::back_inserter(rootPoses));
     }
     const std::vector<BodyPose> bodyPoses = bodyPosesOf(c.bodies, poses, times);
-    if (Status stepped = simulation->stepFrame(poses, bodyPoses, rootPoses); !stepped)
+    const std::vector<std::vector<Vec3d>> bent = bentInWorld(c.bodies, bodyPoses, times);
+    const std::vector<std::span<const Vec3d>> points(bent.begin(), bent.end());
+    if (Status stepped = simulation->stepFrame(poses, bodyPoses, rootPoses, points); !stepped)
       return failed("stepFrame", stepped.error());
-    expected.stepFrame(poses, bodyPoses, rootPoses);
+    expected.stepFrame(poses, bodyPoses, rootPoses, points);
   }
   const auto found = simulation->positions();
   if (!found) return failed("positions", found.error());

@@ -148,7 +148,8 @@ Status Session::submitFrame() {
     if (Status taken = takeChange(frame->change, false, changeable); !taken) return taken;
     Simulation& hair = hairs_[k].simulation();
     if (Status set = frame->forces.set(hair); !set) return set;
-    if (Status submitted = hair.submitFrame(frame->heads, frame->bodies, frame->roots); !submitted)
+    if (Status submitted = hair.submitFrame(frame->heads, frame->bodies, frame->roots, frame->bodyPoints());
+        !submitted)
       return submitted;
     if (k > 0) continue;
     head_ = frame->heads.back();

@@ -44,6 +44,8 @@ class Session {
   double framesPerSecond() const { return hairs_.front().numbers().settings.framesPerSecond; }
   const HeadPose& head() const { return head_; }
   const std::vector<BodyPose>& bodies() const { return bodies_; }
+  /// Of bodies that bend, in the order of LoadedScene::moving, seen from what carries them [m].
+  std::vector<std::vector<Vec3d>> bodyPoints() const { return frames_.front().bodyPointsAt(frame_); }
   /// Where a scalp has the strands' roots now, in the world [m]; none where the head carries them.
   std::vector<Vec3d> strandRoots() const;
   const LoadedScene& scene() const { return *scene_; }

@@ -132,10 +132,17 @@ std::vector<SolidPlace> Viewer::places() const {
   std::vector<SolidPlace> places;
   if (!shown_.bodies) return places;
   const HeadPose& head = session_->head();
-  for (const ViewSolid& solid : plan_.solids) {
+  const std::vector<std::vector<Vec3d>> points = session_->bodyPoints();
+  for (std::size_t s = 0; s < plan_.solids.size(); ++s) {
+    const ViewSolid& solid = plan_.solids[s];
     if (solid.body) {
       const BodyPose& pose = session_->bodies()[*solid.body];
       places.push_back({pose.position, pose.rotation});
+      const auto& moving = plan_.scene->moving;
+      const auto m = std::ranges::find(moving, *solid.body, &MovingBody::body) - moving.begin();
+      if (static_cast<std::size_t>(m) < points.size())
+        places.back().bent = std::make_shared<const SolidMesh>(
+            bent(plan_.look.solids[s], points[static_cast<std::size_t>(m)]));
     } else {
       places.push_back({head.position + rotate(head.rotation, solid.onHead.position),
                         head.rotation * solid.onHead.rotation});

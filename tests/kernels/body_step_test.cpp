@@ -73,6 +73,18 @@ TEST_F(BodyStep, ManyBodiesAgree) {
   }
 }
 
+// One that bends and another: alone, and among others of every shape.
+TEST_F(BodyStep, BendingBodiesAgree) {
+  for (const Variant& variant : kVariants) {
+    ParityCase c{randomGroom(variant.lengths, 33),     {}, {}, variant.kernel, 8,
+                 amongStrands(bendingBall(0.1, 0.006))};
+    expectOneStep(c, fmt::format("bodies that bend, {}", variant.name), kOneStepAmongBodies);
+    for (const Body& shape : sampleBodies())
+      for (const Body& body : amongStrands(shape)) c.bodies.push_back(body);
+    expectOneStep(c, fmt::format("bodies that bend among others, {}", variant.name), kOneStepAmongBodies);
+  }
+}
+
 // A grid whose origin is beside it, as a mesh's of a world often is, turned about that.
 TEST_F(BodyStep, BodiesFarFromTheirOriginAgree) {
   const Vec3d beside{0.1, -0.3, 0.2};

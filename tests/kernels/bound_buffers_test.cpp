@@ -70,9 +70,9 @@ TEST(BoundBuffers, KernelsBindNothingOfWhatTheyLack) {
           layout::kBindContactSystems, layout::kBindContactControl, layout::kBindContactSystemTexels,
           layout::kBindAddedByVolume, layout::kBindAddedByVolumeTexels};
       const std::initializer_list<std::uint32_t> world{
-          layout::kBindBodies,        layout::kBindBodyPoses,      layout::kBindGridCells,
+          layout::kBindBodies,        layout::kBindBodyPoses,      layout::kBindGridPairs,
           layout::kBindAir,           layout::kBindWindModes,      layout::kBindBodyTexels,
-          layout::kBindAirTexels,     layout::kBindBodyPoseTexels, layout::kBindGridCellTexels,
+          layout::kBindAirTexels,     layout::kBindBodyPoseTexels, layout::kBindGridPairTexels,
           layout::kBindWindModeTexels};
       for (const Integrator integrator : {Integrator::jacobi, Integrator::pointJacobi, Integrator::paper}) {
         const auto alone = numbersOf({.integrator = integrator});

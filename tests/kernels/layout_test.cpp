@@ -5,6 +5,7 @@
 #include "layout/fields.h"
 #include "layout/follow.h"
 #include "layout/frame.h"
+#include "layout/mesh_fields.h"
 #include "layout/parts.h"
 #include "layout/picture.h"
 #include "layout/pose.h"

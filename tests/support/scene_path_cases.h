@@ -19,6 +19,8 @@ inline std::vector<PathCase> pathCases() {
       {"scalp.file", groom + "[scalp]\nfile = 'PATH'\n"},
       {"goal.file", groom + "[goal]\nfile = 'PATH'\n"},
       {"body.file", groom + "[[body]]\nname = 'b'\nshape = 'mesh'\nfile = 'PATH'\n"},
+      {"body.cache",
+       groom + "[[body]]\nname = 'b'\nshape = 'mesh'\nfile = 'a.obj'\ndeforms = true\ncache = 'PATH'\n"},
       {"body.moves.file", groom + "[[body]]\nname = 'b'\nshape = 'sphere'\n[body.moves]\nfile = 'PATH'\n"},
       {"scalp.cache", groom + "[scalp]\nfile = 'a.obj'\ncache = 'PATH'\n"},
       {"camera.file", groom + "[[camera]]\nname = 'c'\nfile = 'PATH'\n"},

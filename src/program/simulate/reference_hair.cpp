@@ -38,7 +38,7 @@ class ReferenceHair : public SceneHair {
     times_.push_back(0);
     {
       Stopwatch watch(times_.back());
-      simulation_.stepFrame(frame.heads, frame.bodies, frame.roots);
+      simulation_.stepFrame(frame.heads, frame.bodies, frame.roots, frame.bodyPoints());
     }
     inFlight_.push_back(pointsNow());
     return {};

@@ -9,4 +9,6 @@ struct NumberRange {
   bool operator==(const NumberRange&) const = default;
 };
 
+inline constexpr NumberRange kShareRange{0, 1}, kSeedRange{0, 4294967295.0};
+
 }  // namespace ringlet

@@ -16,7 +16,7 @@
 namespace ringlet {
 namespace {
 
-constexpr std::uint32_t kMostInGroup = 256;
+constexpr std::uint32_t kMostInPoseGroup = 256;
 constexpr std::uint32_t kPointsEach = 64;  // that an invocation looks at for the box
 
 std::vector<std::uint32_t> tagsOf(std::span<const std::uint32_t> firstPoint, PoseTag tag,
@@ -40,7 +40,7 @@ gpu::KernelDescription describe(const gpu::Device& device, const char* name,
   description.name = name;
   description.spirv = spirv;
   description.pushConstantBytes = sizeof(layout::PoseParameters);
-  description.groupSize = std::min(kMostInGroup, device.properties().maxGroupInvocations);
+  description.groupSize = std::min(kMostInPoseGroup, device.properties().maxGroupInvocations);
   description.constants = {{layout::kSpecGroupSize, description.groupSize},
                            {layout::kSpecTexels, texels ? 1u : 0u}};
   return description;

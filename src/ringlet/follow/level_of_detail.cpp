@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kCandidates = 4;  // guides that a strand is compared with
 constexpr double kFitFrom = 0.4;        // from here to the tip a hair is all in its guide's frame (follow.h)
-constexpr double kLeastLength = 0.05, kMostRadius = 4, kMostSpread = 4;  // of a fit
+constexpr double kLeastLength = 0.05, kMostFitRadius = 4, kMostSpread = 4;  // of a fit
 constexpr double kLeastPart = 1e-6;  // of squares: less is rounding, and fits nothing
 
 // A strand at rest [m], and what a hair takes from it: its core and, along the frames on the core, its curl.
@@ -28,7 +28,7 @@ struct Shape {
   double coreLength = 0;
 };
 
-Vec3d seenFrom(const MeasuringFrame& frame, Vec3d v) {
+Vec3d inFrame(const MeasuringFrame& frame, Vec3d v) {
   return {dot(v, frame.normal), dot(v, frame.binormal), dot(v, frame.tangent)};
 }
 Vec3d along(const MeasuringFrame& frame, Vec3d v) {
@@ -48,7 +48,7 @@ Shape shapeOf(std::vector<Vec3d> points, const GuideRest& rest) {
   for (std::size_t i = 1; i < shape.core.size(); ++i)
     shape.coreLength += length(shape.core[i] - shape.core[i - 1]);
   for (std::size_t i = 0; i < shape.points.size(); ++i)
-    shape.curl.push_back(seenFrom(shape.frames[i], shape.points[i] - shape.core[i]));
+    shape.curl.push_back(inFrame(shape.frames[i], shape.points[i] - shape.core[i]));
   return shape;
 }
 
@@ -120,7 +120,7 @@ std::vector<FitSample> samplesOf(const Shape& guide, const Shape& strand, const 
 Fit fitTo(const Shape& guide, const Shape& strand, double shareOfGuide) {
   Fit fit;
   FollowHair& hair = fit.hair;
-  hair.offset = Vec3f(seenFrom(guide.frames.front(), strand.points.front() - guide.points.front()));
+  hair.offset = Vec3f(inFrame(guide.frames.front(), strand.points.front() - guide.points.front()));
   hair.length = static_cast<float>(std::clamp(shareOfGuide, kLeastLength, 1.0));
   const std::vector<FitSample> samples = samplesOf(guide, strand, hair);
   const auto sum = [&](Vec3d FitSample::*x, Vec3d FitSample::*y) {
@@ -143,7 +143,7 @@ Fit fitTo(const Shape& guide, const Shape& strand, double shareOfGuide) {
   if (isCurled) {
     const double a = part * (ofCurl - hair.spread * onCurl), b = part * (ofTurned - hair.spread * onTurned);
     hair.phase = static_cast<float>(std::atan2(b, a));
-    hair.radius = static_cast<float>(std::min(std::hypot(a, b), kMostRadius));
+    hair.radius = static_cast<float>(std::min(std::hypot(a, b), kMostFitRadius));
   }
   for (const FitSample& s : samples) {
     const Vec3d error =

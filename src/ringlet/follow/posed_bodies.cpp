@@ -15,21 +15,29 @@ namespace {
 
 constexpr double kRounding = 1.0001;  // what rounding to floats may leave out of a sphere
 
+// Hairs that follow do not see bodies that bend: a grain stands for each.
+std::vector<Body> withoutBending(std::span<const Body> bodies) {
+  std::vector<Body> all(bodies.begin(), bodies.end());
+  for (Body& body : all)
+    if (body.bends()) body = {.shape = BodyShape::sphere, .radius = 1e-6};
+  return all;
+}
+
 }  // namespace
 
 Result<PosedBodies> PosedBodies::create(gpu::Device& device, std::span<const Body> bodies) {
-  const PackedBodies packed = packBodies(bodies);
+  const PackedBodies packed = packBodies(withoutBending(bodies));
   auto rests = createFilled(device, packed.rests, "bodies that hairs stay out of");
   if (!rests) return rests.error();
-  auto cells = createFilled(device, packed.cells, "their distance grids");
-  if (!cells) return cells.error();
+  auto pairs = createFilled(device, packed.pairs, "their distance grids");
+  if (!pairs) return pairs.error();
   auto poses = gpu::Buffer::create(device, bodies.size() * sizeof(layout::BodyPose), gpu::BufferKind::stream,
                                    "their poses");
   if (!poses) return poses.error();
   auto spheres = gpu::Buffer::create(device, bodies.size() * sizeof(layout::vec4), gpu::BufferKind::stream,
                                      "spheres about them");
   if (!spheres) return spheres.error();
-  PosedBodies self(std::move(*rests), std::move(*cells), std::move(*poses), std::move(*spheres));
+  PosedBodies self(std::move(*rests), std::move(*pairs), std::move(*poses), std::move(*spheres));
   for (const layout::BodyRest& rest : packed.rests)
     self.about_.push_back({{rest.bounds.x, rest.bounds.y, rest.bounds.z}, kRounding * rest.bounds.w});
   self.count_ = static_cast<std::uint32_t>(bodies.size());
@@ -45,7 +53,8 @@ void PosedBodies::setPoses(std::span<const BodyPose> poses, Vec3d origin) {
                                   .moves = 0,
                                   .rotation = packed(pose.rotation),
                                   .turn = packed(Quatd{}),
-                                  .velocity = {}};
+                                  .velocity = {},
+                                  .field = 0};
     const layout::vec4 sphere = packed(position + rotate(pose.rotation, about_[b].middle), about_[b].radius);
     std::memcpy(poses_.mapped().data() + b * sizeof(record), &record, sizeof(record));
     std::memcpy(spheres_.mapped().data() + b * sizeof(sphere), &sphere, sizeof(sphere));
@@ -55,7 +64,7 @@ void PosedBodies::setPoses(std::span<const BodyPose> poses, Vec3d origin) {
 gpu::BufferTable PosedBodies::bufferTable() const {
   using namespace layout;
   return {{kBindBodies, rests_},         {kBindBodyTexels, rests_}, {kBindBodyPoses, poses_},
-          {kBindBodyPoseTexels, poses_}, {kBindGridCells, cells_},  {kBindGridCellTexels, cells_},
+          {kBindBodyPoseTexels, poses_}, {kBindGridPairs, pairs_},  {kBindGridPairTexels, pairs_},
           {kBindBodySpheres, spheres_}};
 }
 

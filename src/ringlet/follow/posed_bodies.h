@@ -27,17 +27,17 @@ class PosedBodies {
   /// As kernels bind them (layout/bodies.h, and layout/follow.h for the spheres about them).
   gpu::BufferTable bufferTable() const;
   std::uint64_t byteCount() const {
-    return rests_.bytes() + cells_.bytes() + poses_.bytes() + spheres_.bytes();
+    return rests_.bytes() + pairs_.bytes() + poses_.bytes() + spheres_.bytes();
   }
 
  private:
-  PosedBodies(gpu::Buffer rests, gpu::Buffer cells, gpu::Buffer poses, gpu::Buffer spheres)
+  PosedBodies(gpu::Buffer rests, gpu::Buffer pairs, gpu::Buffer poses, gpu::Buffer spheres)
       : rests_(std::move(rests)),
-        cells_(std::move(cells)),
+        pairs_(std::move(pairs)),
         poses_(std::move(poses)),
         spheres_(std::move(spheres)) {}
 
-  gpu::Buffer rests_, cells_, poses_, spheres_;
+  gpu::Buffer rests_, pairs_, poses_, spheres_;
   struct Sphere {
     Vec3d middle;   // [m]
     double radius;  // [m]

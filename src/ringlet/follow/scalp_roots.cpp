@@ -15,10 +15,10 @@
 namespace ringlet {
 namespace {
 
-constexpr double kReach = 0.75;         // of a guide's part of the scalp, in the distance of its neighbours
-constexpr double kLoneRadius = 0.0025;  // of a guide without neighbours [m]
-constexpr double kFarthest = 0.01;      // of a guide's root from the mesh [m]
-constexpr std::size_t kNeighbours = 8;
+constexpr double kRootReach = 0.75;  // of a guide's part of the scalp, in the distance of its neighbours
+constexpr double kLoneRootRadius = 0.0025;  // of a guide without neighbours [m]
+constexpr double kFarthest = 0.01;          // of a guide's root from the mesh [m]
+constexpr std::size_t kRootNeighbours = 8;
 constexpr std::size_t kTries = 3;        // places of which one stays
 constexpr std::size_t kMostLevels = 10;  // of ranks: 2^-10 is below the least density
 
@@ -66,9 +66,9 @@ class HairyScalp {
   }
   double reachOf(Vec3d root) const {
     std::vector<double> apart;
-    for (const auto& other : near_.at(root, kNeighbours + 1))
+    for (const auto& other : near_.at(root, kRootNeighbours + 1))
       if (other.distance > 0) apart.push_back(other.distance);
-    return apart.empty() ? kLoneRadius : kReach * apart[apart.size() / 2];
+    return apart.empty() ? kLoneRootRadius : kRootReach * apart[apart.size() / 2];
   }
   // Within the sphere about its middle some place may be within reach of a guide.
   bool isNear(std::uint32_t triangle, double reach) const {

@@ -22,10 +22,12 @@ class BoundKernel {
     return BoundKernel(std::move(*kernel), std::move(*bindings));
   }
 
+  std::uint32_t groupSize() const { return kernel_->groupSize(); }
+
   /// Dispatches as many workgroups as this number of invocations needs.
   template <PushConstants T>
   void dispatch(CommandList& list, const T& pushConstants, std::uint32_t invocations) const {
-    const std::uint32_t size = kernel_->groupSize();
+    const std::uint32_t size = groupSize();
     list.dispatch(*kernel_, bindings_, pushConstants, invocations / size + (invocations % size != 0));
   }
   /// As many as the device finds at `offset` of `groupCounts` (CommandList::dispatchIndirect).

@@ -43,7 +43,9 @@ struct Writer {
     }
   }
   void operator()(const command::Copy& c) const { vk.vkCmdCopyBuffer(commands, c.from, c.to, 1, &c.region); }
-  void operator()(const command::Fill& f) const { vk.vkCmdFillBuffer(commands, f.buffer, 0, f.bytes, 0); }
+  void operator()(const command::Fill& f) const {
+    vk.vkCmdFillBuffer(commands, f.buffer, f.offset, f.bytes, 0);
+  }
   // One kind of barrier for everything: on compute work a narrower one gains nothing.
   void operator()(const command::Barrier&) const {
     recordBarrier(vk, commands, kReads | kWrites | VK_ACCESS_INDIRECT_COMMAND_READ_BIT,
@@ -123,7 +125,10 @@ void CommandList::copyBuffer(const Buffer& from, const Buffer& to, std::uint64_t
       from.handle(), to.handle(), {.srcOffset = fromOffset, .dstOffset = toOffset, .size = bytes}});
 }
 
-void CommandList::fillZero(const Buffer& buffer) { add(command::Fill{buffer.handle(), buffer.capacity()}); }
+void CommandList::fillZero(const Buffer& buffer) { fillZero(buffer, buffer.capacity(), 0); }
+void CommandList::fillZero(const Buffer& buffer, std::uint64_t bytes, std::uint64_t offset) {
+  add(command::Fill{buffer.handle(), bytes, offset});
+}
 
 void CommandList::cut() {
   RINGLET_ASSERT(!isStageOpen_, "cut before endStage");

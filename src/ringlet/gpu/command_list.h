@@ -40,7 +40,7 @@ struct Copy {
 };
 struct Fill {
   VkBuffer buffer = VK_NULL_HANDLE;
-  VkDeviceSize bytes = 0;
+  VkDeviceSize bytes = 0, offset = 0;
 };
 struct Barrier {};
 struct Cut {};
@@ -89,6 +89,8 @@ class CommandList {
   void copyBuffer(const Buffer& from, const Buffer& to, std::uint64_t bytes, std::uint64_t fromOffset = 0,
                   std::uint64_t toOffset = 0);
   void fillZero(const Buffer& buffer);
+  /// `bytes` from `offset` on, both multiples of 4.
+  void fillZero(const Buffer& buffer, std::uint64_t bytes, std::uint64_t offset);
 
   /// What follows is a submission of its own, which sees the finished work of what stands before. Not within
   /// a stage.

@@ -44,6 +44,7 @@ void BodyWatch::look(std::span<const Vec3f> positions, const HeadPose& head,
   RINGLET_ASSERT(poses.size() == bodies_.size(), "every body has a pose");
   RINGLET_ASSERT(positions.size() * bodies_.size() == seen_.size(), "every particle has a position");
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (bodies_[b].bends()) continue;
     for (std::size_t s = 0; s + 1 < firstPoint_.size(); ++s) {
       Clearance clearance;
       for (std::size_t i = firstPoint_[s] + rootCount_; i < firstPoint_[s + 1]; ++i) {
@@ -74,6 +75,7 @@ BodyNumbers BodyWatch::numbers() const {
   BodyNumbers numbers = numbers_;
   const std::size_t count = bodies_.empty() ? 0 : seen_.size() / bodies_.size();
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (bodies_[b].bends()) continue;
     for (std::size_t s = 0; s + 1 < firstPoint_.size(); ++s) {
       for (std::size_t i = firstPoint_[s] + rootCount_; i < firstPoint_[s + 1]; ++i)
         numbers.inside += seen_[b * count + i] == kInside ? 1 : 0;

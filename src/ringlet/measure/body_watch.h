@@ -1,4 +1,4 @@
-// BodyWatch: how deep hair gets into bodies, over a run.
+// BodyWatch: how deep hair gets into bodies, over a run. Bodies that bend are not looked at.
 #pragma once
 
 #include <cstddef>

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 
 #include "ringlet/bodies/body_surface.h"
@@ -26,6 +27,10 @@ Vec3d meanOf(std::span<const Vec3d> points) {
   return sum / static_cast<double>(std::max<std::size_t>(points.size(), 1));
 }
 
+const MovingBody& movingOf(const LoadedScene& scene, std::size_t body) {
+  return *std::ranges::find(scene.moving, body, &MovingBody::body);
+}
+
 }  // namespace
 
 PictureSolids PictureSolids::ofScene(const LoadedScene& scene, double hairSize) {
@@ -33,8 +38,10 @@ PictureSolids PictureSolids::ofScene(const LoadedScene& scene, double hairSize) 
   solids.scene_ = &scene;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
-    const TriangleMesh mesh =
-        body.shape == BodyShape::plane ? squareOf(kPlaneShare * hairSize) : surfaceOf(body);
+    const TriangleMesh mesh = body.shape == BodyShape::plane ? squareOf(kPlaneShare * hairSize)
+                              : body.bends()
+                                  ? TriangleMesh{body.mesh->points, movingOf(scene, i).mesh->triangles()}
+                                  : surfaceOf(body);
     if (mesh.triangles.empty()) continue;
     solids.meshes_.push_back(solidMeshOf(mesh));
     solids.bodies_.push_back(i);
@@ -84,6 +91,12 @@ std::vector<SolidPlace> PictureSolids::bodiesAt(double frame, std::span<const Ve
   }
   const std::vector<BodyPose> poses = bodiesAtFrame(*scene_, frame);
   for (const std::size_t body : bodies_) places.push_back({poses[body].position, poses[body].rotation});
+  const auto points = SceneFrames(*scene_).bodyPointsAt(frame);
+  for (std::size_t m = 0; m < points.size(); ++m) {
+    const auto s =
+        static_cast<std::size_t>(std::ranges::find(bodies_, scene_->moving[m].body) - bodies_.begin());
+    places[s].bent = std::make_shared<const SolidMesh>(bent(meshes_[s], points[m]));
+  }
   return places;
 }
 

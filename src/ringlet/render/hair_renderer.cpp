@@ -250,12 +250,15 @@ Status HairRenderer::setFrame(const Camera& camera, const Bounds& hair, std::spa
     points.push_back({.position = packed(place.position + rotate(place.rotation, point), areaOrGround),
                       .normal = packed(rotate(place.rotation, normal), clear)});
   };
+  const auto now = [&](std::size_t s) -> const SolidMesh& {
+    return places[s].bent ? *places[s].bent : solids_[s];
+  };
   for (std::size_t s = 0; s < solids_.size(); ++s)
     for (std::size_t i = 0; i < solids_[s].points.size(); ++i)
-      add(places[s], solids_[s].points[i], solids_[s].normals[i], solids_[s].isGround() ? 1 : 0,
+      add(places[s], now(s).points[i], now(s).normals[i], solids_[s].isGround() ? 1 : 0,
           solids_[s].isGround() ? solids_[s].clearness[i] : 0);
   for (std::size_t s = 0; s < solids_.size(); ++s)
-    for (const SolidMesh::Patch& patch : solids_[s].patches)
+    for (const SolidMesh::Patch& patch : now(s).patches)
       add(places[s], patch.place, patch.normal, patch.area, 0);
   return buffers_[layout::kBindSolidPoints].upload(std::as_bytes(std::span(points)));
 }

@@ -48,10 +48,11 @@ struct DrawnHairs {
   std::span<const float> widthFactors{};      // of each hair, on it; none: all 1
 };
 
-/// Where a body is: world from body.
+/// Where a body is: world from body; and what it has become, if it bends.
 struct SolidPlace {
   Vec3d position;  // [m]
   Quatd rotation;
+  std::shared_ptr<const SolidMesh> bent{};  // of its SolidMesh
 };
 
 class HairRenderer {

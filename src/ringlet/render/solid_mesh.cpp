@@ -27,7 +27,7 @@ double longestEdge(const SolidMesh& mesh, double asked) {
 }
 
 // Splits every edge that is too long in its middle, the same for both triangles there; whether there was one.
-bool splitOnce(SolidMesh& mesh, double longest) {
+bool splitOnce(SolidMesh& mesh, double longest, std::vector<std::array<std::uint32_t, 2>>& splits) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
   const auto isLong = [&](std::uint32_t a, std::uint32_t b) {
     return length(mesh.points[a] - mesh.points[b]) > longest;
@@ -38,6 +38,7 @@ bool splitOnce(SolidMesh& mesh, double longest) {
     if (isNew) {
       mesh.points.push_back((mesh.points[a] + mesh.points[b]) / 2.0);
       mesh.normals.push_back(normalizedOr(mesh.normals[a] + mesh.normals[b], mesh.normals[a]));
+      splits.push_back({a, b});
     }
     return at->second;
   };
@@ -64,23 +65,50 @@ bool splitOnce(SolidMesh& mesh, double longest) {
   return !middles.empty();
 }
 
-}  // namespace
-
-SolidMesh solidMeshOf(const TriangleMesh& source, double longest) {
-  SolidMesh mesh{source.points, std::vector<Vec3d>(source.points.size()), source.triangles, {}, {}};
+// Of areas of triangles around each point.
+void setNormals(SolidMesh& mesh) {
+  mesh.normals.assign(mesh.points.size(), {});
   for (const Triangle& t : mesh.triangles)
     for (std::uint32_t corner : t) mesh.normals[corner] += doubledArea(mesh, t);
   for (Vec3d& normal : mesh.normals) normal = normalizedOr(normal, Vec3d{0, 1, 0});
+}
+
+}  // namespace
+
+SolidMesh solidMeshOf(const TriangleMesh& source, double longest) {
+  SolidMesh mesh;
+  mesh.points = source.points;
+  mesh.triangles = source.triangles;
+  setNormals(mesh);
 
   SolidMesh fine = mesh;
   const double limit = longestEdge(mesh, longest);
-  while (splitOnce(fine, limit)) {
+  while (splitOnce(fine, limit, mesh.splits)) {
   }
   for (std::size_t i = 0; i < fine.points.size(); ++i)
     mesh.patches.push_back({fine.points[i], fine.normals[i], 0});
   for (const Triangle& t : fine.triangles)
     for (std::uint32_t corner : t) mesh.patches[corner].area += length(doubledArea(fine, t)) / 6;
   return mesh;
+}
+
+SolidMesh bent(const SolidMesh& mesh, std::vector<Vec3d> points) {
+  SolidMesh made = mesh;
+  made.points = std::move(points);
+  setNormals(made);
+  const std::size_t count = made.points.size();
+  for (std::size_t i = 0; i < made.patches.size(); ++i) {
+    SolidMesh::Patch& patch = made.patches[i];
+    if (i < count) {
+      patch.place = made.points[i];
+      patch.normal = made.normals[i];
+      continue;
+    }
+    const auto& [a, b] = made.splits[i - count];
+    patch.place = (made.patches[a].place + made.patches[b].place) / 2.0;
+    patch.normal = normalizedOr(made.patches[a].normal + made.patches[b].normal, made.patches[a].normal);
+  }
+  return made;
 }
 
 SolidMesh groundOf(double radius) {

@@ -21,6 +21,8 @@ struct SolidMesh {
     double area = 0;  // [m^2]
   };
   std::vector<Patch> patches;
+  // The first patches are about points; each other one is in the middle of two before it.
+  std::vector<std::array<std::uint32_t, 2>> splits;
 
   // Of a ground only: at points, the share of what is behind it that is seen, in [0, 1].
   std::vector<double> clearness;
@@ -30,6 +32,9 @@ struct SolidMesh {
 /// Points that triangles share shade smoothly. Patches are at most about `longest` [m] apart, but there are
 /// no more than some 100,000. The mesh has passed checkMesh.
 SolidMesh solidMeshOf(const TriangleMesh& mesh, double longest = 0.004);
+
+/// The same surface with its points elsewhere, as many [m]. Patches keep their areas. Cost: linear.
+SolidMesh bent(const SolidMesh& mesh, std::vector<Vec3d> points);
 
 /// A ground: a disc of the plane y = 0 about the origin [m], which fades towards its edge. It throws no
 /// shadow. Its triangles are small near the middle: one that is partly behind a camera is not drawn.

@@ -17,20 +17,21 @@ static_assert(std::uint32_t(DeviceForm::box) == layout::kShapeBox &&
               std::uint32_t(DeviceForm::plane) == layout::kShapePlane &&
               std::uint32_t(DeviceForm::grid) == layout::kShapeGrid);
 
-void setGrid(layout::BodyRest& rest, const DistanceGrid& grid, std::uint32_t firstCell) {
+// The grid of a DistanceGrid or a BendingMesh.
+void setGrid(layout::BodyRest& rest, const auto& grid, std::uint32_t firstPair) {
   rest.gridOrigin = packed3(grid.origin);
   rest.cell = static_cast<float>(grid.cell);
   std::copy(grid.counts.begin(), grid.counts.end(), rest.cells);
-  rest.firstCell = firstCell;
+  rest.firstPair = firstPair;
 }
 
-Vec3d middleOf(const DistanceGrid& grid) {
+Vec3d middleOf(const auto& grid) {
   const Vec3d size =
       Vec3d{double(grid.counts[0]), double(grid.counts[1]), double(grid.counts[2])} * grid.cell;
   return grid.origin + size * 0.5;
 }
 
-layout::BodyRest restOf(const Body& body, std::uint32_t firstCell) {
+layout::BodyRest restOf(const Body& body, std::uint32_t firstPair) {
   const BodyForm& form = formOf(body.shape);
   const double reach = form.reach(body);
   layout::BodyRest rest{};
@@ -38,27 +39,27 @@ layout::BodyRest restOf(const Body& body, std::uint32_t firstCell) {
   rest.shape = static_cast<std::uint32_t>(form.onDevice);
   rest.halfExtents = packed3(form.halfExtents(body));
   rest.rounding = static_cast<float>(form.rounding(body) + body.thickness);
-  rest.bounds = packed(body.shape == BodyShape::grid ? middleOf(*body.grid) : Vec3d{},
-                       std::isfinite(reach) ? reach + body.thickness : kEndless);
-  if (body.shape == BodyShape::grid) setGrid(rest, *body.grid, firstCell);
+  const double radius = std::isfinite(reach) ? reach + body.thickness : kEndless;
+  if (body.bends()) {
+    rest.shape = layout::kShapeField;
+    rest.bounds = packed(middleOf(*body.mesh), radius);
+    setGrid(rest, *body.mesh, firstPair);
+  } else if (body.shape == BodyShape::grid) {
+    rest.bounds = packed(middleOf(*body.grid), radius);
+    setGrid(rest, *body.grid, firstPair);
+  } else {
+    rest.bounds = packed(Vec3d{}, radius);
+  }
   return rest;
 }
 
-// Adds the eight corners of each cell, in the layout that gridDistance reads
-// (shaders/equations/body_distance.glsl).
-void addCells(const DistanceGrid& grid, std::vector<layout::uvec4>& cells) {
+// Adds a pair for each corner, as gridDistance reads them (shaders/equations/body_distance.glsl). The last
+// corner of a row, which has no neighbour, is never the first of a pair that is read.
+void addPairs(const DistanceGrid& grid, std::vector<std::uint32_t>& pairs) {
   const float cell = static_cast<float>(grid.cell);
-  const auto half = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-    return std::uint32_t{halfBits(grid.distances[grid.cornerIndex(x, y, z)] / cell)};
-  };
-  for (std::uint32_t z = 0; z < grid.counts[2]; ++z)
-    for (std::uint32_t y = 0; y < grid.counts[1]; ++y)
-      for (std::uint32_t x = 0; x < grid.counts[0]; ++x) {
-        const auto pair = [&](std::uint32_t dy, std::uint32_t dz) {
-          return half(x, y + dy, z + dz) | half(x + 1, y + dy, z + dz) << 16;
-        };
-        cells.push_back({pair(0, 0), pair(1, 0), pair(0, 1), pair(1, 1)});
-      }
+  const std::size_t first = pairs.size();
+  for (const float distance : grid.distances) pairs.push_back(halfBits(distance / cell));
+  for (std::size_t k = first; k + 1 < pairs.size(); ++k) pairs[k] |= pairs[k + 1] << 16;
 }
 
 }  // namespace
@@ -66,8 +67,8 @@ void addCells(const DistanceGrid& grid, std::vector<layout::uvec4>& cells) {
 PackedBodies packBodies(std::span<const Body> bodies) {
   PackedBodies packed;
   for (const Body& body : bodies) {
-    packed.rests.push_back(restOf(body, static_cast<std::uint32_t>(packed.cells.size())));
-    if (body.shape == BodyShape::grid) addCells(*body.grid, packed.cells);
+    packed.rests.push_back(restOf(body, static_cast<std::uint32_t>(packed.pairs.size())));
+    if (body.shape == BodyShape::grid && !body.bends()) addPairs(*body.grid, packed.pairs);
   }
   return packed;
 }

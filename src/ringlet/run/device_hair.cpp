@@ -21,7 +21,7 @@ class DeviceHair : public SceneHair {
 
   Status submit(const SceneFrame& frame) override {
     if (Status prepared = prepare(frame, simulation_, isStepByStep_); !prepared) return prepared;
-    return simulation_.submitFrame(frame.heads, frame.bodies, frame.roots);
+    return simulation_.submitFrame(frame.heads, frame.bodies, frame.roots, frame.bodyPoints());
   }
   Status wait() override { return simulation_.waitFrame(); }
   void framePositions(std::span<Vec3f> all) override { simulation_.framePositions(all); }

@@ -60,7 +60,7 @@ Status stepScene(const SceneFrames& frames, Simulation& hair, int frame) {
   const auto now = frames.at(frame);
   if (!now) return now.error();
   if (Status prepared = prepare(*now, hair); !prepared) return prepared;
-  return hair.stepFrame(now->heads, now->bodies, now->roots);
+  return hair.stepFrame(now->heads, now->bodies, now->roots, now->bodyPoints());
 }
 
 }  // namespace ringlet

@@ -28,7 +28,8 @@ Status stepTo(std::uint64_t last, const LoadedScene& scene, const SceneFrames& f
     for (std::size_t k = 0; k < frame->stepCount(); ++k) {
       const SceneFrame step = frame->step(k);
       if (Status prepared = prepare(step, hair, true); !prepared) return prepared;
-      if (Status stepped = hair.stepFrame(step.heads, step.bodies, step.roots); !stepped) return stepped;
+      if (Status stepped = hair.stepFrame(step.heads, step.bodies, step.roots, step.bodyPoints()); !stepped)
+        return stepped;
       if (number >= 0 && ++done == last) return {};
     }
   }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "ringlet/base/assert.h"
@@ -11,6 +12,22 @@
 #include "ringlet/scene/setting_check.h"
 
 namespace ringlet {
+
+namespace {
+
+Status checkBending(const BendingMesh& mesh, const std::string& owner) {
+  const auto fail = [&](const char* what) { return Error{fmt::format("{} bends and {}", owner, what)}; };
+  if (mesh.surface.triangles.empty()) return fail("has no triangles");
+  if (!(mesh.cell > 0) || std::ranges::find(mesh.counts, 0u) != mesh.counts.end())
+    return fail("has a grid without cells");
+  for (const Vec3d p : mesh.points)
+    if (!contains(kPosePlace, p)) return fail("has points that are no places");
+  for (const std::uint32_t source : mesh.surface.sources)
+    if (source >= mesh.points.size()) return fail("its surface names points that its mesh does not have");
+  return {};
+}
+
+}  // namespace
 
 Status checkBody(const Body& body) {
   const std::string owner = fmt::format("the body {}", body.name.empty() ? "without a name" : body.name);
@@ -28,7 +45,7 @@ Status checkBody(const Body& body) {
         fmt::format("has a distance grid of {} corners; its cells have {}", grid->distances.size(), corners));
   for (const float distance : grid->distances)
     if (!std::isfinite(distance)) return fail("has a distance grid with distances that are no numbers");
-  return {};
+  return body.mesh ? checkBending(*body.mesh, owner) : Status{};
 }
 
 BodyPose Body::poseAt(double t, const HeadPose& head) const {

@@ -9,6 +9,7 @@
 
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
+#include "ringlet/scene/bending_mesh.h"
 #include "ringlet/scene/distance_grid.h"
 #include "ringlet/scene/head_pose.h"
 #include "ringlet/scene/motion.h"
@@ -47,11 +48,13 @@ struct Body {
   double length = 0.1;                         // capsule [m]
   Vec3d halfExtents{0.1, 0.1, 0.1};            // box [m], above 0
   std::shared_ptr<const DistanceGrid> grid{};  // grid
+  std::shared_ptr<const BendingMesh> mesh{};   // grid: of a body that bends; `grid` is of its shape at first
   double thickness = 0;                        // distance that hair keeps from the surface [m], 0 to 1
   double friction = 0.2;                       // Coulomb's coefficient, 0 to 100
   BodyPose place{};  // in the frame that carries it: the groom's axes at the head, or its own motion's
   std::optional<Motion> motion{};  // in the world; nullopt: the head carries it
 
+  bool bends() const { return shape == BodyShape::grid && mesh != nullptr; }
   /// Its pose in the world, t seconds after the start, with the head at `head`.
   BodyPose poseAt(double t, const HeadPose& head) const;
 };
@@ -59,6 +62,11 @@ struct Body {
 /// Fails, with the body's name, on an invalid body: a radius of 0, a grid without cells, a number out of its
 /// range.
 Status checkBody(const Body& body);
+
+/// Of each body that bends, in the order of the bodies: places of all points of its mesh in the world [m], at
+/// times spread evenly over a frame, the last at its end; one time after the other, of all bodies as many. In
+/// between points move straight, seen from what carries the body.
+using BodyPoints = std::span<const std::span<const Vec3d>>;
 
 inline constexpr const char* kBodiesNeedJacobi = "bodies need the integrator jacobi; this run has another";
 

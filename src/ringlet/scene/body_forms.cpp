@@ -26,9 +26,9 @@ double distanceToBox(const Body& body, Vec3d y) {
 }
 
 double reachOfGrid(const Body& body) {
-  const DistanceGrid& grid = *body.grid;
-  return length(Vec3d{double(grid.counts[0]), double(grid.counts[1]), double(grid.counts[2])} * grid.cell) /
-         2;
+  const auto& counts = body.bends() ? body.mesh->counts : body.grid->counts;
+  const double cell = body.bends() ? body.mesh->cell : body.grid->cell;
+  return length(Vec3d{double(counts[0]), double(counts[1]), double(counts[2])} * cell) / 2;
 }
 
 constexpr BodyForm kForms[] = {

@@ -8,8 +8,6 @@
 namespace ringlet {
 namespace {
 
-constexpr NumberRange kSeed{0, 4294967295.0};
-constexpr NumberRange kShare{0, 1};
 constexpr double kMostOverlaps = 1e6;
 
 // How much a share of a contact changes in a step when it goes from 0 to 1 in this time.
@@ -78,8 +76,8 @@ std::span<const SettingField<ContactSettings>> contactFields() {
         &C::maxNeighbours,
         {0, kMostOverlaps}},
       F{"drop_share", "1", "", "Share of the remaining pairs of strands that is dropped at random.",
-        &C::dropShare, kShare},
-      F{"seed", "", "", "Seed of drop_share and detail.", &C::seed, kSeed},
+        &C::dropShare, kShareRange},
+      F{"seed", "", "", "Seed of drop_share and detail.", &C::seed, kSeedRange},
       F{"stiffness",
         "w / R",
         "",
@@ -97,7 +95,7 @@ std::span<const SettingField<ContactSettings>> contactFields() {
       F{"friction", "1", "",
         "Damping of strands that slide along each other pair by pair, as a share of the damping along the "
         "normal.",
-        &C::friction, kShare}
+        &C::friction, kShareRange}
           .live(),
       F{"taper",
         "",

@@ -12,9 +12,6 @@
 namespace ringlet {
 namespace {
 
-constexpr NumberRange kSeed{0, 4294967295.0};
-constexpr NumberRange kShare{0, 1};
-
 template <class Owner>
 std::string differenceOf(std::span<const SettingField<Owner>> fields, const Owner& a, const Owner& b,
                          const char* table) {
@@ -44,7 +41,7 @@ std::span<const SettingField<Settings>> settingsFields() {
       F{"fps", "1/s", "", "Frames per second.", &S::framesPerSecond, {0.001, 1e6}}.live(),
       F{"steps_per_frame", "", "", "Outer steps a frame.", &S::stepsPerFrame, {1, kMostStepsPerFrame}}.live(),
       F{"gravity", "m/s^2", "", "Acceleration of gravity.", &S::gravity, {-1e4, 1e4}}.live(),
-      F{"preload", "1", "", "Share of gravity balanced in the rest pose.", &S::gravityPreload, kShare},
+      F{"preload", "1", "", "Share of gravity balanced in the rest pose.", &S::gravityPreload, kShareRange},
       F{"max_stretch",
         "1",
         "",
@@ -111,7 +108,7 @@ std::span<const SettingField<AirSettings>> airFields() {
         {0.01, 1000}}
           .live(),
       F{"along_share", "1", "", "Drag along a strand, as a share of the drag across it.", &A::alongShare,
-        kShare}
+        kShareRange}
           .live(),
       F{"wind", "m/s", "", "Uniform wind.", &A::wind, {-1000, 1000}}.live(),
       F{"gust", "1", "", "Largest increase of the wind in a gust, as a share of the wind.", &A::gust, {0, 10}}
@@ -124,7 +121,7 @@ std::span<const SettingField<AirSettings>> airFields() {
         &A::turbulence,
         {0, 1000}},
       F{"eddy_size", "m", "", "Size of the largest eddies of the turbulence.", &A::eddySize, {0.001, 1000}},
-      F{"seed", "", "", "Seed of gusts and turbulence.", &A::seed, kSeed},
+      F{"seed", "", "", "Seed of gusts and turbulence.", &A::seed, kSeedRange},
   };
   return all;
 }

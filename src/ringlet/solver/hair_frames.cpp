@@ -65,7 +65,8 @@ Status HairFrames::record(std::span<const HairFrame> frames, gpu::CommandList& l
 Status HairFrames::recordAll(std::span<const HairFrame> frames, gpu::CommandList& list) {
   std::vector<bool> works;
   for (const HairFrame& frame : frames) {
-    const auto prepared = of(frame).prepareFrame(frame.stepPoses, frame.bodyPoses, frame.rootPoses);
+    const auto prepared =
+        of(frame).prepareFrame(frame.stepPoses, frame.bodyPoses, frame.rootPoses, frame.bodyPoints);
     if (!prepared) return prepared.error();
     works.push_back(*prepared);
   }

@@ -19,6 +19,7 @@ struct HairFrame {
   Simulation* hair = nullptr;
   std::span<const HeadPose> stepPoses{};
   std::span<const BodyPose> bodyPoses{}, rootPoses{};
+  BodyPoints bodyPoints{};
 };
 
 /// Simulation::stepFrame of each head, with the same bits, in one submission; stageMilliseconds does not

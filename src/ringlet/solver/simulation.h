@@ -162,9 +162,10 @@ class Simulation {
   /// steps; empty: the head carries all bodies. rootPoses[step * strands + strand], groom order: each
   /// strand's pose in the head's frame at the end of each step, which moves its root particles and its root
   /// frame; empty: roots stay in place on the head.
+  /// bodyPoints: of bodies that bend; empty: they keep their shape.
   ///   x_world = head.position + rotate(head.rotation, root.position + rotate(root.rotation, x_groom))
   Status stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses = {},
-                   std::span<const BodyPose> rootPoses = {});
+                   std::span<const BodyPose> rootPoses = {}, BodyPoints bodyPoints = {});
   /// Frames in flight, with the same bits as stepFrame. submitFrame has the arguments of stepFrame, submits
   /// the frame and returns. waitFrame waits for the oldest frame that was not waited for; framePositions then
   /// returns its positions (as positions() does), until the kFramesInFlight'th frame after it is submitted.
@@ -174,7 +175,7 @@ class Simulation {
   /// previous frames.
   static constexpr std::size_t kFramesInFlight = 2;
   Status submitFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses = {},
-                     std::span<const BodyPose> rootPoses = {});
+                     std::span<const BodyPose> rootPoses = {}, BodyPoints bodyPoints = {});
   Status waitFrame();
   std::vector<Vec3f> framePositions() const;
   /// The same, written into positions of the whole groom; of divided hair only the strands here change.

@@ -141,6 +141,11 @@ Status Simulation::Implementation::record(FrameRecording& frame, const PlannedSt
     case FrameStage::inputs:
       for (const FrameInput* input : inputs.each()) input->record(list, frame.slot);
       break;
+    case FrameStage::bodies:
+      now.beginStage(list, "mesh_fields");
+      inputs.get<BodiesInput>().recordFields(list, frame.slot);
+      list.endStage();
+      break;
     case FrameStage::steps:
       return recordSteps(frame);
     case FrameStage::solve:
@@ -202,6 +207,7 @@ std::vector<PlannedStage> Simulation::Implementation::planStages() const {
       .iterations = static_cast<std::uint32_t>(settings.contacts.iterationCount(contacts.pairs.has_value())),
       .contacts = contacts.kinds(),
       .sleeps = stillness.sleeps(),
+      .bends = inputs.get<BodiesInput>().bends(),
       .predictsWithoutBodies = kernels.firstSolve.areThere(),
       .isDivided = contacts.divided.has_value(),
       .samples = contacts.pairs && contacts.pairs->samples()};
@@ -224,6 +230,7 @@ Status Simulation::Implementation::recordSlot(std::size_t slot) {
   if (Status status = recordFrame(frame); !status) return status;
   of.particleSteps = frame.particleSteps;
   of.recorded = wantedRecording();
+  of.fieldWork = inputs.get<BodiesInput>().fieldWork(slot);
   if (contacts.volume) of.untilSort = contacts.volume->untilSort();
   return {};
 }
@@ -245,12 +252,17 @@ Status Simulation::Implementation::recordRest(std::size_t slot) {
 // The host's work before a frame. Returns whether the device has work: it has none where the head jumps.
 Result<bool> Simulation::Implementation::prepareFrame(std::span<const HeadPose> stepPoses,
                                                       std::span<const BodyPose> bodyPoses,
-                                                      std::span<const BodyPose> rootPoses) {
+                                                      std::span<const BodyPose> rootPoses,
+                                                      BodyPoints bodyPoints) {
   const bool jumps = isJump(stepPoses);
   std::vector<HeadPose> heads{head().oneStepEarlier, head().now};
   heads.insert(heads.end(), stepPoses.begin(), stepPoses.end());
-  const FrameContext frame{heads, bodyPoses, rootPoses, clock.seconds(settings.stepSeconds()),
-                           settings.stepSeconds()};
+  const FrameContext frame{.heads = heads,
+                           .bodyPoses = bodyPoses,
+                           .rootPoses = rootPoses,
+                           .bodyPoints = bodyPoints,
+                           .seconds = clock.seconds(settings.stepSeconds()),
+                           .stepSeconds = settings.stepSeconds()};
   const auto isQuiet = [&](const FrameInput* input) { return input->isQuiet(frame); };
   stillness.begin(settings.sleepSpeed > 0 && !jumps && std::ranges::all_of(inputs.each(), isQuiet));
   const std::size_t slot = frames.slotNumber(frames.submitted);
@@ -271,7 +283,7 @@ Result<bool> Simulation::Implementation::prepareFrame(std::span<const HeadPose> 
 
 Status Simulation::Implementation::submitFrame(std::span<const HeadPose> stepPoses,
                                                std::span<const BodyPose> bodyPoses,
-                                               std::span<const BodyPose> rootPoses) {
+                                               std::span<const BodyPose> rootPoses, BodyPoints bodyPoints) {
   if (frames.lost) return *frames.lost;
   RINGLET_ASSERT(frames.submitted - frames.waited < kFramesInFlight,
                  "more frames in flight than there are places");
@@ -281,7 +293,7 @@ Status Simulation::Implementation::submitFrame(std::span<const HeadPose> stepPos
   if (contacts.pairs || contacts.divided || isJump(stepPoses)) {
     if (Status status = finishFrames(); !status) return status;
   }
-  const auto works = prepareFrame(stepPoses, bodyPoses, rootPoses);
+  const auto works = prepareFrame(stepPoses, bodyPoses, rootPoses, bodyPoints);
   if (!works) return works.error();
   const std::size_t slot = frames.slotNumber(frames.submitted);
   if (*works && contacts.divided) {
@@ -293,7 +305,7 @@ Status Simulation::Implementation::submitFrame(std::span<const HeadPose> stepPos
     frames.slots[slot].arrive(asset->framePlaces);
     ++frames.finished;
   } else if (*works) {
-    if (!isRecorded(frames.slots[slot])) {
+    if (!isRecorded(slot)) {
       if (Status status = recordSlot(slot); !status) return status;
     }
     if (Status status = frames.slots[slot].recorder.submit(); !status) return status;
@@ -367,16 +379,16 @@ Status Simulation::Implementation::jump(const FrameContext& frame) {
 }
 
 Status Simulation::stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
-                             std::span<const BodyPose> rootPoses) {
+                             std::span<const BodyPose> rootPoses, BodyPoints bodyPoints) {
   RINGLET_ASSERT(self_->frames.lost || self_->frames.waited == self_->frames.submitted,
                  "stepFrame while frames are in flight");
-  if (Status status = submitFrame(stepPoses, bodyPoses, rootPoses); !status) return status;
+  if (Status status = submitFrame(stepPoses, bodyPoses, rootPoses, bodyPoints); !status) return status;
   return waitFrame();
 }
 
 Status Simulation::submitFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
-                               std::span<const BodyPose> rootPoses) {
-  return self_->submitFrame(stepPoses, bodyPoses, rootPoses);
+                               std::span<const BodyPose> rootPoses, BodyPoints bodyPoints) {
+  return self_->submitFrame(stepPoses, bodyPoses, rootPoses, bodyPoints);
 }
 
 Status Simulation::waitFrame() {

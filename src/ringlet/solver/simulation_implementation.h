@@ -162,16 +162,18 @@ struct Simulation::Implementation {
   FrameSlot::Recorded wantedRecording() const {
     return stillness.sleeps() ? FrameSlot::Recorded::sleep : FrameSlot::Recorded::frame;
   }
-  bool isRecorded(const FrameSlot& slot) const {
+  bool isRecorded(std::size_t number) const {
+    const FrameSlot& slot = frames.slots[number];
     return slot.recorded == wantedRecording() &&
+           slot.fieldWork == inputs.get<BodiesInput>().fieldWork(number) &&
            (!contacts.volume || slot.untilSort == contacts.volume->untilSort());
   }
   Status recordSlot(std::size_t slot);
   Status recordRest(std::size_t slot);
   Result<bool> prepareFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
-                            std::span<const BodyPose> rootPoses);
+                            std::span<const BodyPose> rootPoses, BodyPoints bodyPoints);
   Status submitFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
-                     std::span<const BodyPose> rootPoses);
+                     std::span<const BodyPose> rootPoses, BodyPoints bodyPoints);
   Status finishFrames(std::uint64_t end);
   Status finishFrames() { return finishFrames(frames.submitted); }
   Status runToEnd(std::size_t slot);

@@ -71,6 +71,7 @@ StrandKernelOptions Simulation::Implementation::kernelOptions() const {
           .texels = isSeenAsTexels(device().gpu(), largest),
           .residual = asset->choice.residual,
           .bodies = uses.bodies,
+          .bends = inputs.get<BodiesInput>().bends(),
           .air = settings.air.on,
           .turbulence = inputs.get<AirInput>().isTurbulent(),
           .movingRoots = uses.roots,

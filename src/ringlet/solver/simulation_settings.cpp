@@ -82,10 +82,10 @@ Status Simulation::Implementation::change(std::span<const Body> bodies, std::spa
   if (Status status = finishFrames(); !status) return status;
   auto made = BodiesInput::create(inputSource(), bodies, places, head().now);
   if (!made) return made.error();
-  inputs.get<BodiesInput>() = std::move(*made);
+  const bool bent = std::exchange(inputs.get<BodiesInput>(), std::move(*made)).bends();
   stillness.wake();
   frames.forgetRecordings();
-  return bindKernels();
+  return bent == inputs.get<BodiesInput>().bends() ? bindKernels() : makeKernels();
 }
 
 Status Simulation::setBodies(std::span<const Body> bodies, std::span<const BodyPose> places) {

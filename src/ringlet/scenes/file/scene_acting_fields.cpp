@@ -93,13 +93,13 @@ std::span<const SceneField<SceneHold>> holdFields() {
       {"name", "", "its number", "Name for messages and for keys, as in hold.NAME.strength.", &H::name},
       {"strands", "", "all", "Strands it holds, as in \"0:99, 120\".", &H::strands},
       {"begin", "1", "", "Where on a strand it begins, as a share of the strand's length from the root.",
-       &H::begin, kShare},
-      {"end", "1", "", "Where it ends.", &H::end, kShare},
+       &H::begin, kShareRange},
+      {"end", "1", "", "Where it ends.", &H::end, kShareRange},
       SceneField<H>{
           "gather", "1", "",
           "How wide the held part is, as a share of its width in the groom: 1 holds hair where it is, 0.2 "
           "ties it together, 0 pulls all to one line.",
-          &H::gather, kShare}
+          &H::gather, kShareRange}
           .live(),
       {"position", "m", "where it is in the groom",
        "Where the middle of the held hair is put, in the frame that carries it.", &H::position, kPlace},
@@ -123,7 +123,7 @@ std::span<const SceneField<SceneCut>> sceneCutFields() {
       {"strands", "", "all", "Strands that are cut, as in \"0:99, 120\".", &C::strands},
       {"at", "1", "",
        "Where on a strand, as a share of the strand's length from the root. Two particles stay.", &C::at,
-       kShare},
+       kShareRange},
       {"time", "s", "", "When. A cut is made at the beginning of the first frame that begins then or later.",
        &C::time, kTimes},
   };

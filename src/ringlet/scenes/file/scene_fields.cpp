@@ -19,7 +19,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr NumberRange kDegrees{-1e6, 1e6};  // any turn
 constexpr NumberRange kUnit{1e-6, 1000};    // [m]
-constexpr NumberRange kSeed{0, 4294967295.0};
 constexpr NumberRange kSeconds{0, 3600};
 constexpr NumberRange kBindFrames{1, 1e6};
 constexpr NumberRange kPointsPerStrand{2, kMostPointsPerStrand};
@@ -181,11 +180,11 @@ std::span<const SceneField<SceneGroom>> groomFields() {
        {0, 0.9},
        "",
        kVarying},
-      {"vary_phase", "1", "", "Largest variation of the phase, as a share of a turn.", &G::varyPhase, kShare,
-       "", kVarying},
-      {"other_hand", "1", "", "Share of strands with the other handedness.", &G::otherHand, kShare, "",
+      {"vary_phase", "1", "", "Largest variation of the phase, as a share of a turn.", &G::varyPhase,
+       kShareRange, "", kVarying},
+      {"other_hand", "1", "", "Share of strands with the other handedness.", &G::otherHand, kShareRange, "",
        kVarying},
-      {"seed", "", "", "Seed of the variation.", &G::seed, kSeed, "", kVarying},
+      {"seed", "", "", "Seed of the variation.", &G::seed, kSeedRange, "", kVarying},
   };
   return all;
 }
@@ -471,6 +470,52 @@ std::span<const SceneField<SceneBody>> bodyFields() {
          .effect = "Scale of the mesh, relative to the file.",
          .member = &B::scale,
          .allowed = {1e-6, 1e6},
+         .onlyWith = "mesh"},
+        {.key = "deforms",
+         .unit = "",
+         .standard = "",
+         .effect =
+             "Whether the mesh bends, as its file says: a skin, morph targets, samples of points, a cache or a "
+             "sequence, as scalp.file. Its points are in the world; what carries the body is only what its "
+             "grid moves with.",
+         .member = &B::deforms,
+         .onlyWith = "mesh"},
+        {.key = "cache",
+         .unit = "",
+         .standard = "none",
+         .effect = "Point cache of an .obj file that deforms, .pc2 or .mdd.",
+         .member = &B::cache,
+         .onlyWith = "mesh"},
+        {.key = "cache_fps",
+         .unit = "1/s",
+         .standard = "the run's",
+         .effect = "Frames per second of a .pc2 file or a sequence.",
+         .member = &B::framesPerSecond,
+         .allowed = {0.001, 1e6},
+         .onlyWith = "mesh"},
+        {.key = "animation",
+         .unit = "",
+         .standard = "the head's where it is the same file, else the first",
+         .effect = "glTF: animation of a mesh that deforms, by name or number from 0.",
+         .member = &B::animation,
+         .onlyWith = "mesh"},
+        {.key = "start",
+         .unit = "s",
+         .standard = "",
+         .effect =
+             "Time of the first key, sample or file of a mesh that deforms; before it the mesh moves with what "
+             "carries the body.",
+         .member = &B::start,
+         .allowed = {-3600, 3600},
+         .onlyWith = "mesh"},
+        {.key = "region",
+         .unit = "",
+         .standard = "",
+         .effect =
+             "Part of a mesh that deforms that has a grid, and so holds hair off. hair: where hair comes to that "
+             "is as far from its roots as the longest strand is long.",
+         .member = &B::region,
+         .choices = "hair, all",
          .onlyWith = "mesh"},
         {.key = "position",
          .unit = "m",

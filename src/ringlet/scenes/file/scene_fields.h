@@ -13,7 +13,6 @@ template <class Owner>
 using SceneField = SettingField<Owner>;
 
 inline constexpr NumberRange kPlace{-1e6, 1e6};  // of a coordinate [m]
-inline constexpr NumberRange kShare{0, 1};
 
 std::span<const SceneField<SceneGroom>> groomFields();
 std::span<const SceneField<HairCut>> cutFields();

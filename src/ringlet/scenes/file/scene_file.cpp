@@ -630,6 +630,20 @@ class SceneReader {
                            path ? "both a file and a generator" : "neither a file nor a generator"));
     }
     readMoves(table, scene, body);
+    checkDeforms(table, body);
+  }
+
+  // Keys that only a mesh that deforms has, or only another.
+  void checkDeforms(const toml::table& table, const SceneBody& body) {
+    for (const char* key : {"cache", "cache_fps", "animation", "start", "region"})
+      if (const toml::node* node = table.get(key); node && !body.deforms)
+        problems_.add(lineOf(*node), fmt::format("found body.{}; expected deforms = true beside it", key));
+    for (const char* key : {"generate", "scale", "position", "rotate_degrees", "bind", "bind_frame"})
+      if (const toml::node* node = table.get(key); node && body.deforms)
+        problems_.add(lineOf(*node),
+                      fmt::format("found body.{} of a mesh that deforms, whose points are in the "
+                                  "world as its file has them; expected none",
+                                  key));
   }
 
   // "head", "still", or a motion of its own; or a joint.

@@ -145,6 +145,14 @@ struct SceneBody : Body {
   int cells = 64;                       // of its distance grid, along its longest side
   double scale = 1;
 
+  // Of a mesh that bends: it is in the world, as motion/mesh_motion_file.h reads it, and moves by its points.
+  bool deforms = false;
+  std::filesystem::path cache{};  // of an .obj file
+  std::string animation{};        // empty: the head's where it is the same file, else the first
+  std::optional<double> framesPerSecond{};
+  double start = 0;             // when its first key is [s]
+  std::string region = "hair";  // or all: what of it has a grid
+
   Vec3d position{}, rotateDegrees{};  // [m]
   std::string bind = "carrier";       // or world, as the groom's
   std::optional<int> bindFrame;       // unset: the groom's

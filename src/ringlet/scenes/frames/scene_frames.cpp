@@ -45,6 +45,11 @@ SceneFrame SceneFrame::step(std::size_t k) const {
                  .heads = {heads[k]},
                  .bodies = posesOfStep(bodies),
                  .roots = posesOfStep(roots)};
+  for (const std::vector<Vec3d>& all : points) {
+    const auto each = static_cast<std::ptrdiff_t>(all.size() / heads.size());
+    const auto first = all.begin() + static_cast<std::ptrdiff_t>(k) * each;
+    one.points.emplace_back(first, first + each);
+  }
   one.forces =
       heads.size() == 1 ? forces : forces.part(shareOf(k, heads.size()), shareOf(k + 1, heads.size()));
   if (k == 0) one.change = change;
@@ -102,6 +107,14 @@ std::vector<BodyPose> SceneFrames::bodiesAt(double frame) const {
   return bodyPosesOf(scene_->bodies, std::span(&head, 1), std::span(&seconds, 1));
 }
 
+std::vector<std::vector<Vec3d>> SceneFrames::bodyPointsAt(double frame) const {
+  const double seconds = secondsAt(frame);
+  std::vector<std::vector<Vec3d>> all;
+  for (const MovingBody& moving : scene_->moving)
+    all.push_back(moving.pointsSeenAt(seconds, scene_->bodies[moving.body], scene_->motion));
+  return all;
+}
+
 std::span<const TimedCuts> SceneFrames::cutsBefore(int frame) const {
   if (frame <= first_) return {};
   // Those whose time has come as the frame before begins.
@@ -127,6 +140,12 @@ void SceneFrames::addSteps(int frame, const SceneDrags& drags, SceneFrame& made)
       std::ranges::copy(scene_->scalp->rootPosesAt(times.back()), std::back_inserter(made.roots));
   }
   made.bodies = bodyPosesOf(scene_->bodies, made.heads, times);
+  for (const MovingBody& moving : scene_->moving) {
+    std::vector<Vec3d>& points = made.points.emplace_back();
+    for (const double t : times)
+      std::ranges::copy(moving.pointsAt(t, scene_->bodies[moving.body], scene_->motion),
+                        std::back_inserter(points));
+  }
   for (std::size_t i = 0; i < made.bodies.size() && !drags.bodies.empty(); ++i) {
     const std::size_t step = i / drags.bodies.size(), body = i % drags.bodies.size();
     made.bodies[i] = dragged(made.bodies[i], drags.bodies[body].at(shareOf(step + 1, count)));

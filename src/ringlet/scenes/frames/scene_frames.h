@@ -60,12 +60,16 @@ struct SceneFrame {
   std::optional<std::size_t> ofStep{};      // it is this step of the frame, alone
   std::vector<HeadPose> heads{};            // at the end of each step
   std::vector<BodyPose> bodies{}, roots{};  // [step][body], [step][strand] (none: the head carries them)
+  std::vector<std::vector<Vec3d>>
+      points{};  // of each body that bends: of its mesh at the end of each step [m]
   FrameForces forces{};
   HairChange change{};  // with one, no earlier frame is in flight as hair takes the frame
 
   std::size_t stepCount() const { return heads.size(); }
   /// One of its steps alone.
   SceneFrame step(std::size_t k) const;
+  /// `points` as Simulation::stepFrame takes them.
+  std::vector<std::span<const Vec3d>> bodyPoints() const { return {points.begin(), points.end()}; }
   std::span<const BodyPose> bodiesAtEnd() const {
     return std::span(bodies).last(bodies.size() / heads.size());
   }
@@ -92,6 +96,9 @@ class SceneFrames {
   ScenePlaces placesAt(int frame, const SceneDrags& before = {}) const;
   /// Where bodies are as a frame begins, or a share of one before; one pose each.
   std::vector<BodyPose> bodiesAt(double frame) const;
+  /// Likewise the points of bodies that bend, in the order of LoadedScene::moving, seen from what carries
+  /// them [m].
+  std::vector<std::vector<Vec3d>> bodyPointsAt(double frame) const;
   /// What is cut as a frame begins; and in all frames before it.
   std::span<const TimedCuts> cutsAt(int frame) const;
   std::span<const TimedCuts> cutsBefore(int frame) const;

@@ -28,6 +28,7 @@
 #include "ringlet/rest/material_presets.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/scene/body_forms.h"
+#include "ringlet/scenes/load/bending_body.h"
 #include "ringlet/scenes/load/idle_dials.h"
 #include "ringlet/scenes/load/motion_reach.h"
 #include "ringlet/scenes/load/scalp_doubts.h"
@@ -225,7 +226,7 @@ void turnAboutOwnHead(const SceneFile& scene, LoadedScene& loaded) {
 }
 
 // Binds what is bound to the world, and says what seems to be of another unit, place or axis.
-void bindAndCheck(const SceneFile& scene, LoadedScene& loaded) {
+Status bindAndCheck(const SceneFile& scene, LoadedScene& loaded) {
   turnAboutOwnHead(scene, loaded);
   const WorldBind bind = worldBindOf(scene);
   const bool followsJoint = !scene.motion.file.empty();
@@ -237,6 +238,10 @@ void bindAndCheck(const SceneFile& scene, LoadedScene& loaded) {
   if (followsJoint && !bind.groom && !isPlaced)
     warn(checkJointAxes(loaded.motion, upOf(scene.groom), scene.motion.joint));
   bindInWorld(bind, loaded.motion, loaded.groom, loaded.bodies);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (!scene.bodies[i].deforms) continue;
+    if (Status read = loadBendingBody(scene, i, loaded); !read) return read;
+  }
   if (followsJoint) {
     const HeadPose head = loaded.motion.poseAt(bind.groom.value_or(0));
     warn(checkJointDistance(loaded.groom, head, bind.groom.has_value(), scene.motion.joint));
@@ -245,6 +250,7 @@ void bindAndCheck(const SceneFile& scene, LoadedScene& loaded) {
   }
   for (std::string& doubt : checkPlacement(loaded.groom, loaded.bodies, loaded.motion.poseAt(0)))
     warn(std::move(doubt));
+  return {};
 }
 
 int frameCountOf(const SceneFile& scene, const Motion& motion) {
@@ -395,7 +401,7 @@ Result<std::vector<Body>> loadBodies(const SceneFile& scene, double metresPerUni
     const SceneBody& stated = scene.bodies[i];
     Body body = bodyOf(stated, i, upOf(scene.groom));
     Status loaded = loadMotion(stated, scene, body, warnings);
-    if (loaded && stated.shape == BodyShape::grid)
+    if (loaded && stated.shape == BodyShape::grid && !stated.deforms)
       loaded = loadMeshBody(stated, scene.groom, metresPerUnit, body, warnings);
     if (!loaded) {
       return Error{fmt::format("the body {}: {}", body.name, loaded.error().message), loaded.error().fault};
@@ -450,7 +456,8 @@ Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known, 
   auto bodies = loadBodies(scene, loaded.groom.metresPerUnit, loaded.warnings);
   if (!bodies) return bodies.error();
   loaded.bodies = std::move(*bodies);
-  bindAndCheck(scene, loaded);
+  loaded.frameCount = frameCountOf(scene, loaded.motion);
+  if (Status bound = bindAndCheck(scene, loaded); !bound) return bound.error();
   checkGroomFile(scene, groom->statesUp, loaded);
   notePreset(scene, loaded);
   if (Status added = addHairScalp(scene, loaded); !added) return added.error();
@@ -483,7 +490,6 @@ Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known, 
     loaded.scalp = std::move(*scalp);
   }
   loaded.preRollSeconds = scene.motion.preRollSeconds;
-  loaded.frameCount = frameCountOf(scene, loaded.motion);
   for (std::string& sentence : doubtsOfRigidBodies(loaded)) loaded.warnings.push_back(std::move(sentence));
   const double seconds = loaded.frameCount / loaded.settings.framesPerSecond;
   for (std::string& sentence : idleDials(scene.material.dials, loaded.material, loaded.groom, loaded.settings,

@@ -13,6 +13,7 @@
 #include "ringlet/groom/loaded_groom.h"
 #include "ringlet/motion/head_scalp.h"
 #include "ringlet/motion/motion_file.h"
+#include "ringlet/motion/moving_body.h"
 #include "ringlet/rest/material.h"
 #include "ringlet/scene/body.h"
 #include "ringlet/scene/motion.h"
@@ -65,6 +66,7 @@ struct LoadedScene {
   Motion motion;
   std::vector<Vec3d> rootShifts{};  // as InitialState takes them
   std::vector<Body> bodies{};
+  std::vector<MovingBody> moving{};  // those that bend, in the order of bodies
   std::optional<HeadScalp> scalp{};  // that roots follow; none: the head carries them
   SceneForces forces{};              // fields and holds
   SceneHairs hairs{};

@@ -45,7 +45,7 @@ std::vector<std::string> doubtsOfRigidBodies(const LoadedScene& scene) {
     const HeadPose head = scene.motion.poseAt(t);
     const std::vector<Vec3d> places = scene.scalp->placesAt(t, head, roots);
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-      if (scene.bodies[b].motion) continue;
+      if (scene.bodies[b].motion || scene.bodies[b].bends()) continue;
       const BodyPose pose = scene.bodies[b].poseAt(t, head);
       double depth = 0;
       for (const Vec3d& place : places) depth = std::max(depth, -distanceTo(scene.bodies[b], pose, place));
@@ -57,7 +57,8 @@ std::vector<std::string> doubtsOfRigidBodies(const LoadedScene& scene) {
     if (deepest[b] <= atFirst[b] + kDeeper) continue;
     doubts.push_back(fmt::format(
         "the scalp takes roots {:.3g} mm into the body {}, which does not bend as the scalp does; hair is stretched "
-        "over it there. Leave the body out, or make it of what moves rigidly with the roots",
+        "over it there. Let the body bend too (deforms = true), leave it out, or make it of what moves rigidly with "
+        "the roots",
         deepest[b] * 1000, scene.bodies[b].name));
   }
   return doubts;

@@ -18,7 +18,7 @@ void forEachFileOf(Scene& scene, const Visit& visit) {
   named(scene.groom.file, scene.groom.scalp, scene.motion.file, scene.scalp.file, scene.scalp.cache,
         scene.goalFile, scene.output.hairScalpFile);
   for (auto& body : scene.bodies) {
-    named(body.file);
+    named(body.file, body.cache);
     if (body.moves) named(body.moves->file);
   }
   for (auto& camera : scene.cameras) named(camera.file);

@@ -23,21 +23,45 @@ Result<BodiesInput> BodiesInput::create(const InputSource& from, std::span<const
   for (const Body& body : bodies) {
     if (Status status = checkBody(body); !status) return status.error();
   }
-  PackedBodies packedBodies = packBodies(bodies);
-  auto restBuffer = createFilled(from.device, packedBodies.rests, "bodies");
-  if (!restBuffer) return restBuffer.error();
-  auto cellBuffer = createFilled(from.device, packedBodies.cells, "distance grids");
-  if (!cellBuffer) return cellBuffer.error();
-  BodiesInput self(std::move(*restBuffer), std::move(*cellBuffer));
-  const auto mostSteps = static_cast<std::uint64_t>(from.settings.stepsPerFrame);
-  const std::uint64_t poseBytes = (mostSteps + 1) * bodies.size() * sizeof(layout::BodyPose);
+  const auto mostSteps = static_cast<std::uint32_t>(from.settings.stepsPerFrame);
+  BodiesInput self(BendingBodies(bodies, mostSteps + 1));
+  self.work_.resize(from.slots);
+  PackedBodies packed = packBodies(bodies);
+  const std::uint64_t poseBytes = (mostSteps + std::uint64_t{1}) * bodies.size() * sizeof(layout::BodyPose);
   if (Status status = self.stage(from, poseBytes, "body poses"); !status) return status.error();
+  if (Status status = self.makeGrids(from, packed); !status) return status.error();
   self.bodies_.assign(bodies.begin(), bodies.end());
-  self.packed_ = std::move(packedBodies.rests);
+  self.packed_ = std::move(packed.rests);
   self.now_.assign(places.begin(), places.end());
   if (places.empty())
     for (const Body& body : bodies) self.now_.push_back(body.poseAt(0, head));
   return self;
+}
+
+// The grids of bodies that do not bend, and room behind them for the fields of those that do.
+Status BodiesInput::makeGrids(const InputSource& from, PackedBodies& bodies) {
+  const auto firstPair = static_cast<std::uint32_t>(bodies.pairs.size());
+  auto pairs = gpu::Buffer::create(from.device, (firstPair + bending_.pairCount()) * sizeof(std::uint32_t),
+                                   gpu::BufferKind::storage, "distance grids");
+  if (!pairs) return pairs.error();
+  if (Status status = pairs->upload(std::as_bytes(std::span(bodies.pairs))); !status) return status;
+  pairs_ = std::make_unique<gpu::Buffer>(std::move(*pairs));
+  if (bends()) {
+    if (Status status = stage(from, bending_.pointBytes(), "points of bodies that bend"); !status)
+      return status;
+    if (Status status =
+            bending_.createFields(from.device, staged_[1].seen(), *pairs_, firstPair, bodies.rests);
+        !status)
+      return status;
+  } else {
+    auto none = createZero(from.device, 0, "keys of bodies that bend");
+    if (!none) return none.error();
+    none_.emplace(std::move(*none));
+  }
+  auto rests = createFilled(from.device, bodies.rests, "bodies");
+  if (!rests) return rests.error();
+  rests_.emplace(std::move(*rests));
+  return {};
 }
 
 void BodiesInput::writeFrame(std::size_t slot, const FrameContext& frame) {
@@ -48,9 +72,15 @@ void BodiesInput::writeFrame(std::size_t slot, const FrameContext& frame) {
   RINGLET_ASSERT(poses.empty() || poses.size() == frame.steps() * count,
                  "every body has a pose in every step");
   const auto out = staged_[0].of<layout::BodyPose>(slot);
+  std::vector<float> fields(frame.steps() + 1);
+  if (bends()) work_[slot] = bending_.writeFrame(frame, now_, staged_[1].of<layout::vec4>(slot), fields);
   for (std::size_t b = 0; b < count; ++b) {
-    out[b] = {
-        packed3(now_[b].position - heads[0].position), 0, packed(now_[b].rotation), packed(Quatd{}), {}};
+    out[b] = {.position = packed3(now_[b].position - heads[0].position),
+              .moves = 0,
+              .rotation = packed(now_[b].rotation),
+              .turn = packed(Quatd{}),
+              .velocity = {},
+              .field = bodies_[b].bends() ? fields[0] : 0};
   }
   for (std::size_t k = 1; k < heads.size(); ++k) {
     for (std::size_t b = 0; b < count; ++b) {
@@ -61,14 +91,19 @@ void BodiesInput::writeFrame(std::size_t slot, const FrameContext& frame) {
       const layout::vec4& bounds = packed_[b].bounds;
       const double arm = length(Vec3d{bounds.x, bounds.y, bounds.z}) + bounds.w;
       const double moves = length(to - from) + 2 * arm * length(Vec3d{turn.x, turn.y, turn.z});
-      out[k * count + b] = {packed3(to), static_cast<float>(moves), packed(next.rotation), packed(turn),
-                            packed((to - from) / frame.stepSeconds)};
+      out[k * count + b] = {.position = packed3(to),
+                            .moves = static_cast<float>(moves),
+                            .rotation = packed(next.rotation),
+                            .turn = packed(turn),
+                            .velocity = packed3((to - from) / frame.stepSeconds),
+                            .field = bodies_[b].bends() ? fields[k] : 0};
       now_[b] = next;
     }
   }
 }
 
 bool BodiesInput::isQuiet(const FrameContext& frame) const {
+  if (!bending_.isQuiet(frame)) return false;
   for (std::size_t k = 0; k < frame.bodyPoses.size(); ++k)
     if (frame.bodyPoses[k] != now_[k % now_.size()]) return false;
   return true;
@@ -77,19 +112,30 @@ bool BodiesInput::isQuiet(const FrameContext& frame) const {
 void BodiesInput::jump(const FrameContext& frame) {
   const std::size_t count = bodies_.size();
   const std::span<const BodyPose> poses = frame.bodyPoses;
+  bending_.jump(frame, now_);
   for (std::size_t b = 0; b < count; ++b)
     now_[b] = poses.empty() ? bodies_[b].poseAt(0, frame.end()) : poses[poses.size() - count + b];
 }
 
 gpu::BufferTable BodiesInput::bufferTable(std::size_t) const {
   using namespace layout;
-  return {{kBindBodies, rests_},         {kBindBodyPoses, staged_[0].seen()},
-          {kBindGridCells, cells_},      {kBindBodyTexels, rests_},
-          {kBindGridCellTexels, cells_}, {kBindBodyPoseTexels, staged_[0].seen()}};
+  const MeshFields* fields = bending_.fields();
+  const gpu::Buffer &keys = fields ? fields->keys() : *none_, &ways = fields ? fields->ways() : *none_;
+  return {{kBindBodies, *rests_},         {kBindBodyPoses, staged_[0].seen()},
+          {kBindGridPairs, *pairs_},      {kBindBodyTexels, *rests_},
+          {kBindGridPairTexels, *pairs_}, {kBindBodyPoseTexels, staged_[0].seen()},
+          {kBindBodyKeys, keys},          {kBindBodyKeyTexels, keys},
+          {kBindBodyWays, ways},          {kBindBodyWayTexels, ways}};
 }
 std::uint64_t BodiesInput::largestBuffer() const {
-  return std::max(cells_.bytes(), FrameInput::largestBuffer());
+  std::uint64_t largest = std::max(pairs_->bytes(), FrameInput::largestBuffer());
+  if (const MeshFields* fields = bending_.fields())
+    largest = std::max({largest, fields->keys().bytes(), fields->ways().bytes()});
+  return largest;
 }
-std::uint64_t BodiesInput::bytes() const { return FrameInput::bytes() + rests_.bytes() + cells_.bytes(); }
+std::uint64_t BodiesInput::bytes() const {
+  const MeshFields* fields = bending_.fields();
+  return FrameInput::bytes() + rests_->bytes() + pairs_->bytes() + (fields ? fields->bytes() : 0);
+}
 
 }  // namespace ringlet

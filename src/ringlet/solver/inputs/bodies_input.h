@@ -2,12 +2,16 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "layout/bodies.h"
 #include "ringlet/gpu/buffer.h"
+#include "ringlet/rest/packed_bodies.h"
 #include "ringlet/scene/body.h"
+#include "ringlet/solver/inputs/bending_bodies.h"
 #include "ringlet/solver/inputs/frame_input.h"
 
 namespace ringlet {
@@ -21,12 +25,18 @@ class BodiesInput : public FrameInput {
                                     std::span<const BodyPose> places, const HeadPose& head);
 
   std::size_t count() const { return bodies_.size(); }
+  /// Whether a body bends.
+  bool bends() const { return bending_.areThere(); }
+  /// What the device does in the frame of this slot for the fields of bodies that bend, behind record().
+  const BendingBodies::Work& fieldWork(std::size_t slot) const { return work_[slot]; }
+  void recordFields(gpu::CommandList& list, std::size_t slot) const { bending_.record(list, work_[slot]); }
 
   void writeFrame(std::size_t slot, const FrameContext& frame) override;
   void jump(const FrameContext& frame) override;
   bool isQuiet(const FrameContext& frame) const override;
   Status archive(Archive& archive) override {
     archive.values(std::span(now_));
+    bending_.archive(archive);
     return {};
   }
   gpu::BufferTable bufferTable(std::size_t chunk) const override;
@@ -34,10 +44,14 @@ class BodiesInput : public FrameInput {
   std::uint64_t bytes() const override;
 
  private:
-  BodiesInput(gpu::Buffer rests, gpu::Buffer cells) : rests_(std::move(rests)), cells_(std::move(cells)) {}
+  explicit BodiesInput(BendingBodies bending) : bending_(std::move(bending)) {}
+  Status makeGrids(const InputSource& from, PackedBodies& bodies);
 
-  gpu::Buffer rests_;  // staged: BodyPose[1 + step][body]
-  gpu::Buffer cells_;
+  std::optional<gpu::Buffer> rests_;    // staged: BodyPose[1 + step][body]; points of bodies that bend
+  std::unique_ptr<gpu::Buffer> pairs_;  // where it stays: bending_ writes into it
+  std::optional<gpu::Buffer> none_;     // where no body bends, in place of what its kernels read
+  BendingBodies bending_;
+  std::vector<BendingBodies::Work> work_;  // by slot
   std::vector<Body> bodies_;
   std::vector<layout::BodyRest> packed_;  // for their bounds
   std::vector<BodyPose> now_;             // in the world

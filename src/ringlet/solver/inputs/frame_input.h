@@ -26,6 +26,7 @@ struct FrameContext {
   // [0]: one outer step before the frame; [1]: at its start; [2 + k]: at the end of its step k.
   std::span<const HeadPose> heads;
   std::span<const BodyPose> bodyPoses, rootPoses;  // as Simulation::stepFrame takes them
+  BodyPoints bodyPoints;                           // likewise
   double seconds = 0;                              // since the simulation began, at the frame's start
   double stepSeconds = 0;
 

@@ -15,6 +15,7 @@ class FramePlanner {
   std::vector<PlannedStage> plan() {
     if (!needs_.sleeps) {
       add({.stage = FrameStage::inputs});
+      if (needs_.bends) add({.stage = FrameStage::bodies, .barrier = false});
       if (needs_.contacts.any()) {
         contactFrame();
       } else {

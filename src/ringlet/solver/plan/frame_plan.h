@@ -2,7 +2,7 @@
 // the plan in one loop, and frames of divided hair end a submission at each exchange (divided_frames.cpp).
 // Pure: no device. Mirrored by reference/kernels/contact_step.h and volume_step.h, which keep an order of
 // their own to check this one.
-//   inputs -> solve v^0 -> motion, grid, lists, touch, sums, means -> solve v^1
+//   inputs -> bodies -> solve v^0 -> motion, grid, lists, touch, sums, means -> solve v^1
 //          -> next, sums, means -> solve v^2 ... -> move, and the next step's v^0 -> motion ...
 #pragma once
 
@@ -19,6 +19,7 @@ namespace ringlet {
 
 enum class FrameStage : std::uint8_t {
   inputs,    // copies what the host wrote for the frame to the device
+  bodies,    // fields of bodies that bend, for the times of the frame
   steps,     // all steps of strands without contacts
   solve,     // a pass of the strand kernels
   motion,    // how far contact particles have moved since their lists were made
@@ -73,6 +74,7 @@ struct FrameNeeds {
   std::uint32_t iterations = 1;  // solves of a step with contacts
   ContactKinds contacts{};
   bool sleeps = false;  // hair at rest: no steps
+  bool bends = false;   // a body bends
   // The first solve of a step leaves bodies out; for hair as a volume among bodies. It is a prediction for
   // the coupling; neighbours see what bodies do one step late (kContactWarmth).
   bool predictsWithoutBodies = false;

@@ -11,6 +11,7 @@
 #include "ringlet/gpu/device.h"
 #include "ringlet/gpu/recorder.h"
 #include "ringlet/rest/rest_state.h"
+#include "ringlet/solver/inputs/bending_bodies.h"
 #include "ringlet/solver/inputs/rigid_hair.h"
 #include "ringlet/solver/strands/device_groom.h"
 #include "ringlet/solver/strands/frame_readback.h"
@@ -24,6 +25,7 @@ struct FrameSlot {
   enum class Recorded { nothing, frame, sleep };
   Recorded recorded = Recorded::nothing;  // sleep: a frame without steps
   std::uint32_t untilSort = 0;            // VolumeStage::untilSort of the recording
+  BendingBodies::Work fieldWork{};        // BodiesInput::fieldWork of the recording
   double particleSteps = 0;               // of strands, in the recording
   bool isHosts = false;  // the frame is in a host's commands (hair_frames.h); the host says when it is over
 

@@ -80,6 +80,7 @@ gpu::KernelDescription describeStrandKernel(const StrandShape& shape, const Stra
                            {layout::kSpecMovingRoots, options.movingRoots ? 1u : 0u},
                            {layout::kSpecContacts, options.contacts ? 1u : 0u},
                            {layout::kSpecBodies, options.bodies ? 1u : 0u},
+                           {layout::kSpecBends, options.bodies && options.bends ? 1u : 0u},
                            {layout::kSpecAir, options.air ? 1u : 0u},
                            {layout::kSpecTurbulent, options.turbulence ? 1u : 0u},
                            {layout::kSpecGoals, options.goals ? 1u : 0u},

@@ -43,6 +43,7 @@ struct StrandKernelOptions {
   bool texels = false;    // records are read as texels (gpu::BindingKind)
   bool residual = false;  // measure the residual of the velocity solve
   bool bodies = false;    // there are bodies
+  bool bends = false;     // one of them bends
   bool air = false;       // drag of the air acts
   bool turbulence = false;
   bool movingRoots = false;        // strands have root poses

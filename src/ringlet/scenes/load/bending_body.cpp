@@ -1,0 +1,148 @@
+// Implements scenes/load/bending_body.h.
+#include "ringlet/scenes/load/bending_body.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "ringlet/base/bounds.h"
+#include "ringlet/bodies/close_mesh.h"
+#include "ringlet/bodies/mesh_file.h"
+#include "ringlet/bodies/mesh_grid.h"
+#include "ringlet/groom/root_ends.h"
+#include "ringlet/motion/mesh_motion_file.h"
+
+namespace ringlet {
+namespace {
+
+constexpr int kPadding = 3;           // cells about the part of the mesh that has a grid
+constexpr int kFirstShapeCells = 32;  // of the grid of its first shape
+constexpr double kFarther = 1.25;     // than in the frames that were looked at
+
+Result<std::shared_ptr<const MeshMotion>> meshOfBody(const SceneBody& scene, const SceneFile& file,
+                                                     bool isHeads, const LoadedScene& loaded) {
+  MeshMotionChoice choice{.path = scene.file,
+                          .cache = scene.cache,
+                          .mesh = scene.mesh,
+                          .animation = scene.animation,
+                          .metresPerUnit = scene.metresPerUnit,
+                          .up = {},
+                          .framesPerSecond = scene.framesPerSecond.value_or(loaded.settings.framesPerSecond)};
+  if (isHeads && choice.animation.empty()) choice.animation = file.motion.animation;
+  if (isHeads && !choice.metresPerUnit) choice.metresPerUnit = file.motion.metresPerUnit;
+  if (isHeads) choice.up = fileAxisNamed(file.motion.up);
+  if (!choice.metresPerUnit && isObjMesh(scene.file)) choice.metresPerUnit = loaded.groom.metresPerUnit;
+  return readMeshMotion(choice, file.groom.up == "Z");
+}
+
+double longestStrand(const Groom& groom) {
+  double longest = 0;
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+    double length = 0;
+    const auto strand = groom.strand(s);
+    for (std::size_t i = 1; i < strand.size(); ++i)
+      length += ringlet::length(Vec3d(strand[i]) - Vec3d(strand[i - 1]));
+    longest = std::max(longest, length * groom.metresPerUnit);
+  }
+  return longest;
+}
+
+// Where hair can come to as the run begins, seen from the body's carrier.
+Bounds reachOfHair(const Groom& groom, const HeadPose& head, const BodyPose& carrier) {
+  Bounds bounds = Bounds::none();
+  for (const Vec3d root : rootPlaces(groom)) {
+    const Vec3d place = head.position + rotate(head.rotation, root);
+    bounds.add(rotate(carrier.rotation.conjugate(), place - carrier.position));
+  }
+  const Vec3d room = Vec3d{1, 1, 1} * longestStrand(groom);
+  return {bounds.low - room, bounds.high + room};
+}
+
+Bounds common(const Bounds& a, const Bounds& b) {
+  return {{std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y), std::max(a.low.z, b.low.z)},
+          {std::min(a.high.x, b.high.x), std::min(a.high.y, b.high.y), std::min(a.high.z, b.high.z)}};
+}
+
+// A grid of cubes about a box.
+void setGrid(const Bounds& box, int cells, BendingMesh& mesh) {
+  const Vec3d size = box.high - box.low;
+  mesh.cell = std::max({size.x, size.y, size.z}) / cells;
+  const std::array<double, 3> sides{size.x, size.y, size.z};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    mesh.counts[axis] = static_cast<std::uint32_t>(std::ceil(sides[axis] / mesh.cell - 1e-9)) + 2 * kPadding;
+  const Vec3d counts{double(mesh.counts[0]), double(mesh.counts[1]), double(mesh.counts[2])};
+  mesh.origin = box.middle() - counts * (mesh.cell / 2);
+}
+
+double volumeOf(const std::vector<Vec3d>& points, const ClosedMesh& surface) {
+  double six = 0;
+  for (const auto& [a, b, c] : surface.triangles) six += dot(points[a], cross(points[b], points[c]));
+  return six / 6;
+}
+
+}  // namespace
+
+Status loadBendingBody(const SceneFile& file, std::size_t index, LoadedScene& loaded) {
+  const SceneBody& scene = file.bodies[index];
+  Body& body = loaded.bodies[index];
+  std::error_code code;  // files that are not there are no error of this
+  const bool isHeads =
+      !file.motion.file.empty() && std::filesystem::equivalent(file.motion.file, scene.file, code);
+  const auto read = meshOfBody(scene, file, isHeads, loaded);
+  if (!read)
+    return Error{fmt::format("the body {}: {}", body.name, read.error().message), read.error().fault};
+  for (const std::string& warning : (*read)->warnings())
+    loaded.warnings.push_back(fmt::format("{}: {}", scene.file.string(), warning));
+  MovingBody moving{index, *read, scene.start, isHeads ? loaded.motion.start : Vec3d{}};
+
+  const auto carrierAt = [&](double t) { return body.poseAt(t, loaded.motion.poseAt(t)); };
+  TriangleMesh first{moving.pointsSeenAt(0, body, loaded.motion), (*read)->triangles()};
+  if (Status checked = checkMesh(first); !checked)
+    return Error{fmt::format("the body {}: {}", body.name, checked.error().message)};
+  BendingMesh mesh;
+  mesh.surface = closed(first);
+  if (volumeOf(mesh.surface.pointsOf(first.points), mesh.surface) < 0) {
+    for (auto& triangle : first.triangles) std::swap(triangle[1], triangle[2]);
+    mesh.surface = closed(first);
+    loaded.warnings.push_back(fmt::format(
+        "the body {}: the mesh is inside out, its triangles clockwise seen from outside; turned", body.name));
+  }
+  if (!mesh.surface.rims.empty())
+    loaded.warnings.push_back(
+        fmt::format("the body {}: {} of its mesh's holes {} closed by caps that move with it", body.name,
+                    mesh.surface.rims.size(), mesh.surface.rims.size() == 1 ? "is" : "are"));
+  mesh.points = first.points;
+
+  // Where the mesh is over the run, a look a frame.
+  Bounds all = Bounds::none();
+  const int looks = std::max(1, loaded.frameCount);
+  for (int frame = 0; frame <= looks; ++frame) {
+    const double t = frame / loaded.settings.framesPerSecond;
+    for (const Vec3d p : moving.pointsSeenAt(t, body, loaded.motion)) all.add(p);
+  }
+  const bool isAll = scene.region == "all";
+  const Bounds box =
+      isAll ? all : common(all, reachOfHair(loaded.groom, loaded.motion.poseAt(0), carrierAt(0)));
+  if (!(box.low.x < box.high.x && box.low.y < box.high.y && box.low.z < box.high.z))
+    return Error{
+        fmt::format("the body {}: the longest strand does not reach its mesh; is its unit or place right? "
+                    "region = \"all\" gives all of it a grid",
+                    body.name)};
+  setGrid(box, scene.cells, mesh);
+  const Vec3d middle = box.middle();
+  mesh.reach = kFarther * std::max({all.high.x - middle.x, middle.x - all.low.x, all.high.y - middle.y,
+                                    middle.y - all.low.y, all.high.z - middle.z, middle.z - all.low.z});
+  auto grid = makeDistanceGrid(first, {.cells = std::min(scene.cells, kFirstShapeCells)});
+  if (!grid) return Error{fmt::format("the body {}: {}", body.name, grid.error().message)};
+  body.grid = std::make_shared<const DistanceGrid>(std::move(grid->grid));
+  body.mesh = std::make_shared<const BendingMesh>(std::move(mesh));
+  loaded.moving.push_back(std::move(moving));
+  return {};
+}
+
+}  // namespace ringlet
