@@ -90,48 +90,52 @@ struct Case {
 
 using BendingBodiesTest = GpuTest;
 
-// How many strands come out of a frame otherwise than in the double reference, by more than 0.01 mm: each
-// frame begins with the same state, but normals jump where cells of a grid meet, and what lies there may go
-// either way by rounding.
-std::size_t differing(const ComputeDevice& device, const Case& c) {
-  Simulation hair = c.make(device);
-  reference::Simulation<double> expected(c.groom, {}, c.settings, headAt(0), headAt(0), {}, c.bodies);
+template <class Real>
+reference::Field<Real> fieldOf(const std::vector<Vec3f>& values) {
+  reference::Field<Real> field;
+  for (const Vec3f& value : values) field.push_back(reference::toEigen<Real>(value));
+  return field;
+}
+
+// How many strands come out of a frame elsewhere, by more than 0.01 mm.
+template <class A, class B>
+std::size_t differing(const Groom& groom, const A& some, const B& others) {
   std::size_t differ = 0;
-  for (int frame = 0; frame < 6; ++frame) {
-    const HairState state = *hair.state();
-    const auto toField = [](const std::vector<Vec3f>& values) {
-      reference::Field<double> field;
-      for (const Vec3f& value : values) field.push_back(reference::toEigen<double>(value));
-      return field;
-    };
-    expected.setState(toField(state.positions), toField(state.velocities));
-    c.step(hair, frame);
-    const Frame now = frameOf(c.bodies, c.settings, frame, c.samples);
-    expected.stepFrame(now.heads, now.bodies, {}, now.spans());
-    const auto found = *hair.positions();
-    for (std::size_t s = 0; s < c.groom.strandCount(); ++s) {
-      double worst = 0;
-      for (std::size_t i = c.groom.firstPoint[s]; i < c.groom.firstPoint[s + 1]; ++i)
-        worst = std::max(worst, (expected.positions()[i] - reference::toEigen<double>(found[i])).norm());
-      differ += worst > 1e-5;
-    }
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+    double worst = 0;
+    for (std::size_t i = groom.firstPoint[s]; i < groom.firstPoint[s + 1]; ++i)
+      worst = std::max(worst, (some[i].template cast<double>() - others[i].template cast<double>()).norm());
+    differ += worst > 1e-5;
   }
   return differ;
 }
 
-// Frames of six steps with fewer fields, between which the surface is carried: no worse than a body that does
-// not bend.
+// Frames of six steps with fewer fields, between which the surface is carried; each begins with the same
+// state. Which triangle is nearest decides how the surface moves, so rounding may send a strand elsewhere:
+// the device must do that no more often than the reference in float.
 TEST_F(BendingBodiesTest, FramesAgreeWithTheReference) {
-  Case rigid;
-  rigid.bodies = {gridBall(0.1, 0.006)};
-  const std::size_t most = differing(device(), rigid);
   for (const int samples : {6, 2, 1}) {
     Case c;
     c.samples = samples;
-    const std::size_t differ = differing(device(), c);
-    fmt::print("{} samples: {} of 240 strands differ in a frame; of a rigid ball {}\n", samples, differ,
-               most);
-    EXPECT_LE(differ, most + 12);
+    Simulation hair = c.make(device());
+    reference::Simulation<double> exact(c.groom, {}, c.settings, headAt(0), headAt(0), {}, c.bodies);
+    reference::Simulation<float> rounded(c.groom, {}, c.settings, headAt(0), headAt(0), {}, c.bodies);
+    std::size_t differ = 0, byRounding = 0;
+    for (int frame = 0; frame < 6; ++frame) {
+      const HairState state = *hair.state();
+      exact.setState(fieldOf<double>(state.positions), fieldOf<double>(state.velocities));
+      rounded.setState(fieldOf<float>(state.positions), fieldOf<float>(state.velocities));
+      c.step(hair, frame);
+      const Frame now = frameOf(c.bodies, c.settings, frame, samples);
+      exact.stepFrame(now.heads, now.bodies, {}, now.spans());
+      rounded.stepFrame(now.heads, now.bodies, {}, now.spans());
+      differ += differing(c.groom, fieldOf<float>(*hair.positions()), exact.positions());
+      byRounding += differing(c.groom, rounded.positions(), exact.positions());
+    }
+    fmt::print("{} samples: {} of 240 strands differ in a frame, of the reference in float {}\n", samples,
+               differ, byRounding);
+    EXPECT_LE(differ, byRounding + 12);
+    EXPECT_LE(byRounding, 72u);
   }
 }
 
