@@ -180,14 +180,19 @@ KeptOut keptOut(BodyStep body, vec3 y0, vec3 y1) {
   // contact.
   float beyond = dot(touch.surface.normal, y1 - held) + touch.surface.distance;
   vec3 normal = touch.surface.normal;
-  vec3 y = touch.found ? y1 - min(beyond, 0.0) * normal : y1;
+  vec3 y = y1 - min(beyond, 0.0) * normal;
   bool isWithin = false;  // though nothing was met: the surface by which it ends moves otherwise
+#ifdef RINGLET_BENDING
+  if (!touch.found) y = y1;
+#endif
   float depth = -1.0;
   int turn = 0;
   do {
     Surface surface = surfaceAt(body.rest, body.after.field, y);
     if (depth < 0.0) depth = surface.distance;
-    isWithin = isWithin || (kBends && turn == 0 && surface.distance < 0.0);
+#ifdef RINGLET_BENDING
+    isWithin = isWithin || (turn == 0 && surface.distance < 0.0);
+#endif
     if (depth < 0.0 && turn < 3) {
       y -= depth * surface.normal;
       normal = surface.normal;
@@ -195,10 +200,10 @@ KeptOut keptOut(BodyStep body, vec3 y0, vec3 y1) {
   } while (depth < 0.0 && ++turn <= 3);
   if (depth < -kOutside) {
     y = held;
-    if (kBends) {
-      Surface closing = surfaceAt(body.rest, body.after.field, held);
-      y -= min(closing.distance, 0.0) * closing.normal;
-    }
+#ifdef RINGLET_BENDING
+    Surface closing = surfaceAt(body.rest, body.after.field, held);
+    y -= min(closing.distance, 0.0) * closing.normal;
+#endif
   }
   return KeptOut(touch.before >= -kOutside && (touch.found || isWithin) && y != y1, y, normal);
 }

@@ -22,7 +22,6 @@ RINGLET_CONSTANT uint kSpecContacts = 10;
 RINGLET_CONSTANT uint kSpecPairs = 11;
 RINGLET_CONSTANT uint kSpecVolume = 12;
 RINGLET_CONSTANT uint kSpecBodies = 13;
-RINGLET_CONSTANT uint kSpecBends = 31;
 RINGLET_CONSTANT uint kSpecAir = 14;
 RINGLET_CONSTANT uint kSpecTurbulent = 15;
 RINGLET_CONSTANT uint kSpecGoals = 16;

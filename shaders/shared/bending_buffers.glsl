@@ -1,27 +1,11 @@
 // How far a place is from a body that may bend, and how the body's surface near the place moves. A body that bends
 // has a grid for each of several times of a frame, a copy of its field. Between two times the surface is carried:
 // it is where the copy has it, moved on by the way of the triangle nearest to the place. Buffers of strand_step.
+// Only kernels compiled with RINGLET_BENDING know bodies that bend: for others nothing is left but the grids.
 #ifndef RINGLET_BENDING_BUFFERS
 #define RINGLET_BENDING_BUFFERS
 
 #include "shared/body_buffers.glsl"
-
-#ifdef RINGLET_SURROUNDINGS
-layout(constant_id = kSpecBends) const bool kBends = false;  // a body bends
-layout(set = 0, binding = kBindBodyKeys) readonly buffer BodyKeys { uint bodyKeys[]; };
-layout(set = 0, binding = kBindBodyWays) readonly buffer BodyWays { vec4 bodyWays[]; };
-layout(set = 0, binding = kBindBodyKeyTexels) uniform usamplerBuffer bodyKeyTexels;
-layout(set = 0, binding = kBindBodyWayTexels) uniform usamplerBuffer bodyWayTexels;
-
-uint bodyKey(uint i) { return kTexels ? recordAt(bodyKeyTexels, i >> 2)[i & 3u] : bodyKeys[i]; }
-vec4 bodyWay(uint i) { return kTexels ? vectorAt(bodyWayTexels, i) : bodyWays[i]; }
-#else
-const bool kBends = false;
-uint bodyKey(uint i) { return 0; }
-vec4 bodyWay(uint i) { return vec4(0); }
-#endif
-
-const float kFieldError = 0.25;  // of a look at a field beside the exact distance, at most [cells]
 
 /// The surface near a place, from a copy of the field to the next.
 struct Bending {
@@ -29,33 +13,42 @@ struct Bending {
   float spread;  // by which its corners differ from that, at most [m]
   bool isKnown;  // else no triangle is near
 };
+const Bending kStill = Bending(vec3(0), 0.0, false);
+
+#ifdef RINGLET_BENDING
+layout(set = 0, binding = kBindBodyKeys) readonly buffer BodyKeys { uint bodyKeys[]; };
+layout(set = 0, binding = kBindBodyWays) readonly buffer BodyWays { vec4 bodyWays[]; };
+layout(set = 0, binding = kBindBodyKeyTexels) uniform usamplerBuffer bodyKeyTexels;
+layout(set = 0, binding = kBindBodyWayTexels) uniform usamplerBuffer bodyWayTexels;
+
+const float kFieldError = 0.25;  // of a look at a field beside the exact distance, at most [cells]
+
+uint bodyKey(uint i) { return kTexels ? recordAt(bodyKeyTexels, i >> 2)[i & 3u] : bodyKeys[i]; }
+vec4 bodyWay(uint i) { return kTexels ? vectorAt(bodyWayTexels, i) : bodyWays[i]; }
+uint copyOf(float field) { return uint(field); }
+uint cornerCount(BodyRest body) { return (body.cells[0] + 1) * (body.cells[1] + 1) * (body.cells[2] + 1); }
 
 Bending bendingNear(BodyRest body, uint copy, vec3 y) {
-  bool isField = kBends && body.shape == kShapeField;
-  if (!isField) return Bending(vec3(0), 0.0, false);
+  bool isField = body.shape == kShapeField;
   vec3 counts = vec3(body.cells[0], body.cells[1], body.cells[2]);
   uvec3 at = uvec3(clamp(round((y - body.gridOrigin) / body.cell), vec3(0), counts));
   uint row = body.cells[0] + 1;
-  uint layer = row * (body.cells[1] + 1);
-  uint key = bodyKey(body.firstKey + copy * layer * (body.cells[2] + 1) + at.x + row * at.y + layer * at.z);
+  uint corner = at.x + row * at.y + row * (body.cells[1] + 1) * at.z;
+  uint key = bodyKey(isField ? body.firstKey + copy * cornerCount(body) + corner : 0);
+  bool isKnown = isField && key != 0;
   uint last = (1u << body.triangleBits) - 1;
-  uint triangle = key == 0 ? 0 : last - (key & last);
-  vec4 way = bodyWay(body.firstWay + copy * body.triangleCount + triangle);
-  return key == 0 ? Bending(vec3(0), 0.0, false) : Bending(way.xyz, way.w, true);
+  vec4 way = bodyWay(isKnown ? body.firstWay + copy * body.triangleCount + last - (key & last) : 0);
+  return Bending(isKnown ? way.xyz : vec3(0), isKnown ? way.w : 0.0, isKnown);
 }
-
-uint copyOf(float field) { return uint(field); }
 
 /// Distance and normal at y, in the frame of what carries the body.
 Surface surfaceAt(BodyRest body, float field, vec3 y, Bending bending) {
-  if (!kBends) return bodyDistance(body, y);
   uint copy = copyOf(field);
   BodyRest then = body;
-  then.firstPair += copy * (body.cells[0] + 1) * (body.cells[1] + 1) * (body.cells[2] + 1);
+  then.firstPair += copy * cornerCount(body);
   return bodyDistance(then, y - (field - float(copy)) * bending.way);
 }
 Surface surfaceAt(BodyRest body, float field, vec3 y) {
-  if (!kBends) return bodyDistance(body, y);
   return surfaceAt(body, field, y, bendingNear(body, copyOf(field), y));
 }
 
@@ -63,26 +56,31 @@ Bending bendingAtStart(BodyStep body, vec3 y) { return bendingNear(body.rest, co
 /// By how much the surface near a place moves in the step, seen from what carries the body [m].
 float bendingShare(BodyStep body) { return body.after.field - body.before.field; }
 vec3 bent(BodyStep body, Bending bending) { return bendingShare(body) * bending.way; }
-vec3 bent(BodyStep body, vec3 y) {
-  if (!kBends) return vec3(0);
-  return bent(body, bendingAtStart(body, y));
-}
+vec3 bent(BodyStep body, vec3 y) { return bent(body, bendingAtStart(body, y)); }
 /// The same for a path from y0 to y1: of the surface near its start, or else near its end.
 vec3 bentOnPath(BodyStep body, vec3 y0, vec3 y1) {
-  if (!kBends) return vec3(0);
   Bending atStart = bendingAtStart(body, y0);
   Bending atEnd = bendingAtStart(body, y1);
   return atStart.isKnown ? bent(body, atStart) : bent(body, atEnd);
 }
 /// What a look must leave beside the way of a place, for the surface beside it moves otherwise [m].
 float bendingRoom(BodyStep body, Bending bending) {
-  bool isField = kBends && body.rest.shape == kShapeField;
-  return isField ? bendingShare(body) * bending.spread + kFieldError * body.rest.cell : 0.0;
+  float room = bendingShare(body) * bending.spread + kFieldError * body.rest.cell;
+  return body.rest.shape == kShapeField ? room : 0.0;
 }
-/// Velocity of the surface near p, a place at the step's start, which is y in the body's frame [m/s].
+/// Velocity of the surface near p, a place at the step's start [m/s].
 vec3 surfaceVelocityAt(BodyStep body, vec3 p, Bending bending, float T) {
-  vec3 velocity = bodyVelocityAt(body, p, T);
-  return kBends ? velocity + rotate(body.after.rotation, bent(body, bending)) / T : velocity;
+  return bodyVelocityAt(body, p, T) + rotate(body.after.rotation, bent(body, bending)) / T;
 }
+#else
+Surface surfaceAt(BodyRest body, float field, vec3 y, Bending bending) { return bodyDistance(body, y); }
+Surface surfaceAt(BodyRest body, float field, vec3 y) { return bodyDistance(body, y); }
+Bending bendingAtStart(BodyStep body, vec3 y) { return kStill; }
+vec3 bent(BodyStep body, Bending bending) { return vec3(0); }
+vec3 bent(BodyStep body, vec3 y) { return vec3(0); }
+vec3 bentOnPath(BodyStep body, vec3 y0, vec3 y1) { return vec3(0); }
+float bendingRoom(BodyStep body, Bending bending) { return 0.0; }
+vec3 surfaceVelocityAt(BodyStep body, vec3 p, Bending bending, float T) { return bodyVelocityAt(body, p, T); }
+#endif
 
 #endif

@@ -15,9 +15,9 @@ namespace {
 using Plan = std::vector<PlannedStage>;
 
 const char* nameOf(FrameStage stage) {
-  static constexpr const char* kNames[] = {"inputs",   "steps",   "solve",   "motion",   "grid", "lists",
-                                           "touch",    "next",    "brought", "sort",     "sums", "means",
-                                           "rows out", "rows in", "reach",   "exchange", "end"};
+  static constexpr const char* kNames[] = {"inputs", "bodies",   "steps",   "solve",   "motion",   "grid",
+                                           "lists",  "touch",    "next",    "brought", "sort",     "sums",
+                                           "means",  "rows out", "rows in", "reach",   "exchange", "end"};
   return kNames[static_cast<std::size_t>(stage)];
 }
 const char* nameOf(Exchange what) {
@@ -28,7 +28,8 @@ const char* nameOf(Exchange what) {
 // As "solve 0 move goes on", "motion 1 elsewhere", "exchange 0 rows".
 std::string textOf(const PlannedStage& s) {
   std::string text = nameOf(s.stage);
-  if (s.stage == FrameStage::inputs || s.stage == FrameStage::end || s.stage == FrameStage::steps)
+  if (s.stage == FrameStage::inputs || s.stage == FrameStage::end || s.stage == FrameStage::steps ||
+      s.stage == FrameStage::bodies)
     return text;
   text += " " + std::to_string(s.step);
   if (s.stage == FrameStage::solve) {
@@ -78,6 +79,14 @@ TEST(FramePlan, StrandsThatTouchNoOthersAreOneStage) {
   EXPECT_EQ(textsOf(stagesOf({.steps = 3})), (std::vector<std::string>{"inputs", "steps", "end"}));
   EXPECT_EQ(textsOf(stagesOf({.steps = 3, .contacts = {true, true}, .sleeps = true})),
             std::vector<std::string>{"end"});
+}
+
+TEST(FramePlan, FieldsOfBodiesThatBendAreMadeBeforeTheSteps) {
+  EXPECT_EQ(textsOf(stagesOf({.steps = 3, .bends = true})),
+            (std::vector<std::string>{"inputs", "bodies", "steps", "end"}));
+  EXPECT_EQ(textsOf(stagesOf({.steps = 3, .sleeps = true, .bends = true})), std::vector<std::string>{"end"});
+  const Plan contacts = stagesOf({.steps = 2, .contacts = {true, false}, .bends = true});
+  EXPECT_EQ(textOf(contacts[1]), "bodies");
 }
 
 TEST(FramePlan, ContactsStandBetweenTheSolvesOfAStep) {

@@ -53,10 +53,6 @@ Status BodiesInput::makeGrids(const InputSource& from, PackedBodies& bodies) {
             bending_.createFields(from.device, staged_[1].seen(), *pairs_, firstPair, bodies.rests);
         !status)
       return status;
-  } else {
-    auto none = createZero(from.device, 0, "keys of bodies that bend");
-    if (!none) return none.error();
-    none_.emplace(std::move(*none));
   }
   auto rests = createFilled(from.device, bodies.rests, "bodies");
   if (!rests) return rests.error();
@@ -119,13 +115,16 @@ void BodiesInput::jump(const FrameContext& frame) {
 
 gpu::BufferTable BodiesInput::bufferTable(std::size_t) const {
   using namespace layout;
-  const MeshFields* fields = bending_.fields();
-  const gpu::Buffer &keys = fields ? fields->keys() : *none_, &ways = fields ? fields->ways() : *none_;
-  return {{kBindBodies, *rests_},         {kBindBodyPoses, staged_[0].seen()},
-          {kBindGridPairs, *pairs_},      {kBindBodyTexels, *rests_},
-          {kBindGridPairTexels, *pairs_}, {kBindBodyPoseTexels, staged_[0].seen()},
-          {kBindBodyKeys, keys},          {kBindBodyKeyTexels, keys},
-          {kBindBodyWays, ways},          {kBindBodyWayTexels, ways}};
+  gpu::BufferTable table{{kBindBodies, *rests_},         {kBindBodyPoses, staged_[0].seen()},
+                         {kBindGridPairs, *pairs_},      {kBindBodyTexels, *rests_},
+                         {kBindGridPairTexels, *pairs_}, {kBindBodyPoseTexels, staged_[0].seen()}};
+  if (const MeshFields* fields = bending_.fields()) {
+    table.insert({{kBindBodyKeys, fields->keys()},
+                  {kBindBodyKeyTexels, fields->keys()},
+                  {kBindBodyWays, fields->ways()},
+                  {kBindBodyWayTexels, fields->ways()}});
+  }
+  return table;
 }
 std::uint64_t BodiesInput::largestBuffer() const {
   std::uint64_t largest = std::max(pairs_->bytes(), FrameInput::largestBuffer());

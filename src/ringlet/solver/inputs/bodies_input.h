@@ -49,7 +49,6 @@ class BodiesInput : public FrameInput {
 
   std::optional<gpu::Buffer> rests_;    // staged: BodyPose[1 + step][body]; points of bodies that bend
   std::unique_ptr<gpu::Buffer> pairs_;  // where it stays: bending_ writes into it
-  std::optional<gpu::Buffer> none_;     // where no body bends, in place of what its kernels read
   BendingBodies bending_;
   std::vector<BendingBodies::Work> work_;  // by slot
   std::vector<Body> bodies_;

@@ -23,6 +23,7 @@ Spirv moduleOf(const StrandShape& shape, const StrandKernelOptions& options) {
   const bool amongOthers = options.bodies || options.air || options.goals || options.fields;
   const StrandPart part = options.heads                              ? StrandPart::heads
                           : options.integrator != Integrator::jacobi ? StrandPart::baselines
+                          : options.bodies && options.bends          ? StrandPart::bending
                           : amongOthers                              ? StrandPart::surroundings
                           : options.contacts                         ? StrandPart::contacts
                                                                      : StrandPart::plain;
@@ -80,7 +81,6 @@ gpu::KernelDescription describeStrandKernel(const StrandShape& shape, const Stra
                            {layout::kSpecMovingRoots, options.movingRoots ? 1u : 0u},
                            {layout::kSpecContacts, options.contacts ? 1u : 0u},
                            {layout::kSpecBodies, options.bodies ? 1u : 0u},
-                           {layout::kSpecBends, options.bodies && options.bends ? 1u : 0u},
                            {layout::kSpecAir, options.air ? 1u : 0u},
                            {layout::kSpecTurbulent, options.turbulence ? 1u : 0u},
                            {layout::kSpecGoals, options.goals ? 1u : 0u},

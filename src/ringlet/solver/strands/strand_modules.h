@@ -10,10 +10,10 @@ namespace ringlet {
 /// operations.
 enum class StrandForm { lanes, memory, serial };
 /// Hair alone; with contacts; also with bodies, air, goals or fields; with other integrators than jacobi; one
-/// of many heads. A module of its own is needed because a driver also reads code that is only switched off,
-/// half a second a kernel on lavapipe, and its buffers stay bound. In memory and serial forms, surroundings
-/// includes contacts.
-enum class StrandPart { plain, contacts, surroundings, baselines, heads };
+/// of many heads; as surroundings, with bodies that bend. A module of its own is needed because a driver also
+/// reads code that is only switched off, half a second a kernel on lavapipe, and its buffers stay bound. In
+/// memory and serial forms, surroundings includes contacts.
+enum class StrandPart { plain, contacts, surroundings, baselines, heads, bending };
 
 /// `taps`: the module writes every intermediate. Empty where there is no such module: heads have no taps, and
 /// no part has any in a library built without RINGLET_BUILD_TAPS.
