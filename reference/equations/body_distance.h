@@ -74,8 +74,8 @@ Surface<Real> gridDistance(const DistanceGrid& grid, const Vector3<Real>& place)
     distance += corners[corner] * weight.prod();
     for (int axis = 0; axis < 3; ++axis)
       if ((corner >> axis & 1) == 0)
-        gradient[axis] += (corners[corner | 1 << axis] - corners[corner]) * weight[(axis + 1) % 3] *
-                          weight[(axis + 2) % 3];
+        gradient[axis] +=
+            (corners[corner | 1 << axis] - corners[corner]) * weight[(axis + 1) % 3] * weight[(axis + 2) % 3];
   }
   Vector3<Real> normal = directionOr<Real>(gradient, Vector3<Real>::UnitY());
   if (beyond.norm() > Real(0)) {

@@ -312,7 +312,8 @@ void keepParticlesOut(uint step, Room room, bool isDone) {
         KeptOut kept = keptOut(body, y0, placeAtEnd(body, RINGLET_PICK(p, vec3(0), k)));
         vec3 place = outOfBody(body, kept.place);
         vec3 n = outward(body, kept.normal);
-        vec3 slowed = slowedInward(RINGLET_PICK(v, vec3(0), k) - surfaceVelocityAt(body, start, bendingAtStart(body, y0), T), n,
+        vec3 u = surfaceVelocityAt(body, start, bendingAtStart(body, y0), T);
+        vec3 slowed = slowedInward(RINGLET_PICK(v, vec3(0), k) - u, n,
                                    dot(n, place - RINGLET_PICK(p, vec3(0), k)), T);
         if (kept.moved) {
           RINGLET_AT(j, k, moveParticle(j, place, slowed))

@@ -49,7 +49,8 @@ Surface bodyDistance(BodyRest body, vec3 y) {
   uint row = body.cells[0] + 1;
   uint layer = row * (body.cells[1] + 1);
   uint corner = body.firstPair + at.x + row * at.y + layer * at.z;
-  uvec4 corners = uvec4(gridPair(corner), gridPair(corner + row), gridPair(corner + layer), gridPair(corner + row + layer));
+  uvec4 corners = uvec4(gridPair(corner), gridPair(corner + row), gridPair(corner + layer),
+                        gridPair(corner + row + layer));
   Surface surface = gridDistance(corners, nearest - base, wanted - nearest, body.cell);
   surface.distance -= body.rounding;
   return surface;

@@ -29,7 +29,6 @@ const InputException kExceptions[] = {
     {"StepParameters.headPoses", "a constant"},
     {"VolumeNumbers.warmth", "a constant"},
     {"BodyRest.unused", "unused"},
-    {"BodyPose.velocity[3]", "unused"},
     {"RootPose.position[3]", "unused"},
     {"RootPose.velocity[3]", "unused"},
     {"Sampled", "of hair that is divided: kernels/DividedHair"},

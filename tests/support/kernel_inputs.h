@@ -36,6 +36,7 @@ inline constexpr KernelFamily kKernelFamilies[] = {
     {"follow_", kFollowInputs},
     {"pose_", "they hand positions on: follow/DevicePose compares the bits"},
     {"part_", "divided hair has the bits of the whole: kernels/DividedHair"},
+    {"mesh_", "grids of bodies that bend, against the reference's: kernels/MeshField"},
     {"render_", "pictures, of which the reference has none: tests/render"},
     {"probe_", "no hair: program/conform_probes.cpp has each bit of what they must say"},
 };
