@@ -217,6 +217,18 @@ TEST_F(BendingBodiesTest, CheckpointsAndFramesInFlightHaveTheSameBits) {
   }
 }
 
+// A body that the head carries stands in its frame whether its poses are given or not.
+TEST_F(BendingBodiesTest, TheHeadCarriesWhatHasNoPoses) {
+  const Case c;
+  Simulation told = c.make(device()), untold = c.make(device());
+  for (int frame = 0; frame < 3; ++frame) {
+    const Frame now = frameOf(c.bodies, c.settings, frame, c.samples);
+    ASSERT_TRUE(told.stepFrame(now.heads, now.bodies, {}, now.spans()));
+    ASSERT_TRUE(untold.stepFrame(now.heads, {}, {}, now.spans()));
+    EXPECT_EQ(*told.positions(), *untold.positions()) << frame;
+  }
+}
+
 // A body that stands still for some frames, and one that no longer bends: hair meets what is there.
 TEST_F(BendingBodiesTest, FramesWithoutPointsKeepTheShape) {
   const Case c;

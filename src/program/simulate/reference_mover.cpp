@@ -11,6 +11,7 @@
 
 #include "reference/follow_guide.h"
 #include "ringlet/base/in_parallel.h"
+#include "ringlet/follow/posed_bodies.h"
 #include "ringlet/pictures/follow_plan.h"
 
 namespace ringlet::program {
@@ -20,7 +21,7 @@ class ReferenceMover : public FollowMover {
  public:
   ReferenceMover(const FollowPlan& plan, std::span<const Body> bodies)
       : plan_(plan),
-        bodies_(bodies.begin(), bodies.end()),
+        bodies_(metByFollowers(bodies)),
         firstHair_(plan.guides().size() + 1),
         isBlended_(std::ranges::any_of(plan.hairs(), [](const FollowHair& hair) {
           return hair.others[0].share > 0 || hair.others[1].share > 0;

@@ -15,18 +15,17 @@ namespace {
 
 constexpr double kRounding = 1.0001;  // what rounding to floats may leave out of a sphere
 
-// Hairs that follow do not see bodies that bend: a grain stands for each.
-std::vector<Body> withoutBending(std::span<const Body> bodies) {
-  std::vector<Body> all(bodies.begin(), bodies.end());
-  for (Body& body : all)
-    if (body.bends()) body = {.shape = BodyShape::sphere, .radius = 1e-6};
-  return all;
-}
-
 }  // namespace
 
+std::vector<Body> metByFollowers(std::span<const Body> bodies) {
+  std::vector<Body> met(bodies.begin(), bodies.end());
+  for (Body& body : met)
+    if (body.bends()) body = {.shape = BodyShape::sphere, .radius = 1e-6};
+  return met;
+}
+
 Result<PosedBodies> PosedBodies::create(gpu::Device& device, std::span<const Body> bodies) {
-  const PackedBodies packed = packBodies(withoutBending(bodies));
+  const PackedBodies packed = packBodies(metByFollowers(bodies));
   auto rests = createFilled(device, packed.rests, "bodies that hairs stay out of");
   if (!rests) return rests.error();
   auto pairs = createFilled(device, packed.pairs, "their distance grids");

@@ -15,6 +15,9 @@
 
 namespace ringlet {
 
+/// Bodies as hairs that follow meet them: they do not see those that bend, for each of which a grain stands.
+std::vector<Body> metByFollowers(std::span<const Body> bodies);
+
 class PosedBodies {
  public:
   /// The bodies pass checkBody. Errors: the device lacks memory.

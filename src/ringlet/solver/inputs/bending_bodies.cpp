@@ -72,25 +72,24 @@ Status BendingBodies::createFields(gpu::Device& device, const gpu::Buffer& point
   return {};
 }
 
-std::vector<std::vector<std::vector<Vec3d>>> BendingBodies::samplesOf(const FrameContext& frame,
-                                                                      std::span<const BodyPose> start) const {
+std::vector<BendingBodies::Surfaces> BendingBodies::samplesOf(const FrameContext& frame,
+                                                              std::span<const BodyPose> start) const {
   if (frame.bodyPoints.empty()) return {};
   RINGLET_ASSERT(frame.bodyPoints.size() == bodies_.size(), "every body that bends has points");
+  std::vector<BodyPose> carried;  // by the head, where nobody says otherwise
+  if (frame.bodyPoses.empty())
+    carried = bodyPosesOf(all_, frame.heads.subspan(2), std::vector<double>(frame.steps()));
+  const std::span<const BodyPose> ends = frame.bodyPoses.empty() ? carried : frame.bodyPoses;
   const std::size_t count = frame.bodyPoints.front().size() / bodies_.front().shape->points.size();
-  std::vector<std::vector<std::vector<Vec3d>>> samples(count);
+  std::vector<Surfaces> samples(count);
   for (std::size_t m = 0; m < bodies_.size(); ++m) {
     const Mesh& mesh = bodies_[m];
     const std::size_t pointCount = mesh.shape->points.size();
     RINGLET_ASSERT(frame.bodyPoints[m].size() == count * pointCount,
                    "every body that bends has as many samples of all its points");
     for (std::size_t s = 0; s < count; ++s) {
-      const double share = double(s + 1) / double(count);
-      const auto carrierAt = [&] {
-        if (frame.bodyPoses.empty()) return all_[mesh.body].poseAt(0, frame.end());
-        return poseAt(start[mesh.body], frame.bodyPoses.subspan(mesh.body), all_.size(), frame.steps(),
-                      share);
-      };
-      const BodyPose carrier = carrierAt();
+      const BodyPose carrier = poseAt(start[mesh.body], ends.subspan(mesh.body), all_.size(), frame.steps(),
+                                      double(s + 1) / double(count));
       std::vector<Vec3d> points;
       for (const Vec3d p : frame.bodyPoints[m].subspan(s * pointCount, pointCount))
         points.push_back(rotate(carrier.rotation.conjugate(), p - carrier.position));
@@ -101,8 +100,7 @@ std::vector<std::vector<std::vector<Vec3d>>> BendingBodies::samplesOf(const Fram
 }
 
 // As many as keep the way of each point near a grid within a cell from one to the next.
-std::uint32_t BendingBodies::buildCount(std::span<const std::vector<std::vector<Vec3d>>> samples,
-                                        std::size_t steps) const {
+std::uint32_t BendingBodies::buildCount(std::span<const Surfaces> samples, std::size_t steps) const {
   double most = 0;
   for (std::size_t m = 0; m < bodies_.size(); ++m) {
     const Mesh& mesh = bodies_[m];

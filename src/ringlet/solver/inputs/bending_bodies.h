@@ -60,10 +60,10 @@ class BendingBodies {
     const BendingMesh* shape;
     std::vector<Vec3d> now;  // points of its surface
   };
-  /// Points of surfaces at the ends of the frame's samples; [sample][mesh].
-  std::vector<std::vector<std::vector<Vec3d>>> samplesOf(const FrameContext& frame,
-                                                         std::span<const BodyPose> start) const;
-  std::uint32_t buildCount(std::span<const std::vector<std::vector<Vec3d>>> samples, std::size_t steps) const;
+  using Surfaces = std::vector<std::vector<Vec3d>>;  // points of each mesh that bends
+  /// At the ends of the frame's samples.
+  std::vector<Surfaces> samplesOf(const FrameContext& frame, std::span<const BodyPose> start) const;
+  std::uint32_t buildCount(std::span<const Surfaces> samples, std::size_t steps) const;
 
   std::vector<Body> all_;
   std::vector<Mesh> bodies_;
