@@ -228,7 +228,6 @@ def test_a_broken_scene_is_told_with_file_and_line(tmp_path):
     assert error.value.fault == "input"
 
 
-# Every key that is a path, in a scene of its own.
 GROOM = '[groom]\nfile = "groom.obj"\n'
 # A table, one of several tables, and where a run writes; tests/scene/scene_paths_test.cpp tries every key.
 PATHS = {
