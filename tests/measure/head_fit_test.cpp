@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "tests/measure/strand_samples.h"
@@ -51,6 +52,25 @@ TEST(HeadFit, TakesTheSmallestTurnWhereRootsLeaveItOpen) {
   EXPECT_LT(apart(fitHeadRotation(line, rotatedRoots(line, seen)), seen), 1e-9);
   const Quatd back = fitHeadRotation(line, rotatedRoots(line, turnAbout({0, 1, 0}, 180)));
   EXPECT_NEAR(rotate(back, Vec3d{1, 0, 0}).x, -1, 1e-9);
+}
+
+// A third of the points goes its own way: least squares would turn by it.
+TEST(HeadFit, ASharedMotionIsThatOfMostPoints) {
+  std::vector<Vec3d> rest, points;
+  const Quatd turn = turnAbout({0.48, 0.6, 0.64}, 50);
+  const Vec3d way{0.3, -2, 1};
+  for (int i = 0; i < 90; ++i) {
+    rest.push_back({0.2 * std::sin(1.3 * i), 0.2 * std::cos(0.7 * i), 0.1 * std::sin(2.9 * i + 1)});
+    points.push_back(rotate(turn, rest.back()) + way);
+    if (rest.back().x > 0.08) points.back() += Vec3d{0, 0.05, 0.2 * rest.back().x};
+  }
+  const HeadPose pose = fitSharedMotion(rest, points);
+  EXPECT_LT(apart(pose.rotation, turn), 1e-3);
+  Vec3d middle{};
+  for (const Vec3d p : rest) middle += p / double(rest.size());
+  EXPECT_LT(length(pose.position - rotate(turn, middle) - way), 1e-4);
+  EXPECT_GT(apart(fitHeadRotation(rest, points), turn), 0.02);
+  EXPECT_EQ(fitSharedMotion({}, {}), HeadPose{});
 }
 
 }  // namespace

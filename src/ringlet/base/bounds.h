@@ -21,6 +21,9 @@ struct Bounds {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
+  bool contains(Vec3d p) const {
+    return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y && low.z <= p.z && p.z <= high.z;
+  }
   Vec3d middle() const { return (low + high) / 2.0; }
   double diagonal() const { return length(high - low); }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ringlet/base/mean.h"
+
 namespace ringlet {
 namespace {
 
@@ -13,12 +15,6 @@ constexpr double kMostOneSided = 0.9;
 constexpr std::size_t kLeastRoots = 30;
 constexpr double kLeastRadius = 0.04, kGreatestRadius = 0.2;  // of a head [m]
 constexpr double kMostUneven = 0.03;                          // rms of roots from it, share of the radius
-
-Vec3d meanOf(std::span<const Vec3d> points) {
-  Vec3d sum;
-  for (const Vec3d& p : points) sum += p;
-  return sum / static_cast<double>(std::max<std::size_t>(points.size(), 1));
-}
 
 }  // namespace
 

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "ringlet/base/assert.h"
+#include "ringlet/base/mean.h"
 
 namespace ringlet {
 namespace {
@@ -46,28 +49,25 @@ Matrix diagonalize(Matrix& a) {
   return vectors;
 }
 
-Vec3d meanOf(std::span<const Vec3d> points) {
-  Vec3d sum{};
-  for (Vec3d p : points) sum += p;
-  return sum / static_cast<double>(std::max<std::size_t>(points.size(), 1));
-}
+constexpr int kRounds = 10;
+constexpr double kLeastDistance = 1e-5;  // that a point's weight is by [m]
+
+// Sums of a pair of points over all: sx.y is the sum of rest x times now y.
+struct Products {
+  Vec3d sx{}, sy{}, sz{};
+
+  void add(Vec3d rest, Vec3d now) {
+    sx += now * rest.x;
+    sy += now * rest.y;
+    sz += now * rest.z;
+  }
+};
 
 // Eigenvalues closer to the greatest than this share of it count as equal: they differ by rounding.
 constexpr double kSameEigenvalue = 1e-6;
 
-}  // namespace
-
-Quatd fitHeadRotation(std::span<const Vec3d> restRoots, std::span<const Vec3d> roots) {
-  RINGLET_ASSERT(restRoots.size() == roots.size(), "as many roots as at rest");
-  const Vec3d restMean = meanOf(restRoots), mean = meanOf(roots);
-  Vec3d sx{}, sy{}, sz{};  // sx.y is the sum of rest x times now y
-  for (std::size_t i = 0; i < roots.size(); ++i) {
-    const Vec3d a = restRoots[i] - restMean, b = roots[i] - mean;
-    sx += b * a.x;
-    sy += b * a.y;
-    sz += b * a.z;
-  }
-
+Quatd bestRotation(const Products& sums) {
+  const auto& [sx, sy, sz] = sums;
   // Horn's matrix, in the order x y z w.
   Matrix n{Row{sx.x - sy.y - sz.z, sx.y + sy.x, sz.x + sx.z, sy.z - sz.y},
            Row{sx.y + sy.x, sy.y - sx.x - sz.z, sy.z + sz.y, sz.x - sx.z},
@@ -90,6 +90,44 @@ Quatd fitHeadRotation(std::span<const Vec3d> restRoots, std::span<const Vec3d> r
     if (n[k][k] == greatest) best = {vectors[0][k], vectors[1][k], vectors[2][k], vectors[3][k]};
   }
   return normalized(best);
+}
+
+}  // namespace
+
+Quatd fitHeadRotation(std::span<const Vec3d> restRoots, std::span<const Vec3d> roots) {
+  RINGLET_ASSERT(restRoots.size() == roots.size(), "as many roots as at rest");
+  const Vec3d restMean = meanOf(restRoots), mean = meanOf(roots);
+  Products sums;
+  for (std::size_t i = 0; i < roots.size(); ++i) sums.add(restRoots[i] - restMean, roots[i] - mean);
+  return bestRotation(sums);
+}
+
+HeadPose fitSharedMotion(std::span<const Vec3d> rest, std::span<const Vec3d> points) {
+  RINGLET_ASSERT(rest.size() == points.size(), "as many points as at rest");
+  const Vec3d middle = meanOf(rest);
+  std::vector<double> weights(points.size(), 1.0);
+  HeadPose pose;
+  for (int round = 0; round < kRounds; ++round) {
+    Vec3d restMean{}, mean{};
+    double sum = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      restMean += rest[i] * weights[i];
+      mean += points[i] * weights[i];
+      sum += weights[i];
+    }
+    if (!(sum > 0)) return pose;
+    restMean = restMean / sum, mean = mean / sum;
+    Products sums;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      sums.add((rest[i] - restMean) * weights[i], points[i] - mean);
+    pose.rotation = bestRotation(sums);
+    pose.position = mean + rotate(pose.rotation, middle - restMean);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vec3d there = pose.position + rotate(pose.rotation, rest[i] - middle);
+      weights[i] = 1 / std::max(length(points[i] - there), kLeastDistance);
+    }
+  }
+  return pose;
 }
 
 }  // namespace ringlet

@@ -1,9 +1,11 @@
-// fitHeadRotation: the rotation of the head, estimated from its roots, for files that do not contain it.
+// The rigid motion of points: of a head from its roots, for files that do not contain it, and of the part of
+// a mesh that does not bend.
 #pragma once
 
 #include <span>
 
 #include "ringlet/base/vec3.h"
+#include "ringlet/scene/head_pose.h"
 
 namespace ringlet {
 
@@ -11,5 +13,11 @@ namespace ringlet {
 /// 1987). If the roots do not determine it (one root, or all on a line), the smallest best rotation. As many
 /// roots as rest roots, all finite. Cost: one pass.
 Quatd fitHeadRotation(std::span<const Vec3d> restRoots, std::span<const Vec3d> roots);
+
+/// The rigid motion that as many of the points as can be share: the least sum of distances, and not of their
+/// squares, so that a part that bends hardly turns what the rest agrees on (a few rounds of least squares,
+/// each point weighed by one over its distance in the round before). The position is that of the mean of
+/// `rest`. As many points as at rest, all finite. Cost: ten passes.
+HeadPose fitSharedMotion(std::span<const Vec3d> rest, std::span<const Vec3d> points);
 
 }  // namespace ringlet

@@ -17,11 +17,12 @@ struct MovingBody {
   std::shared_ptr<const MeshMotion> mesh{};  // of which it has the points
   double start = 0;                          // of the run's time: when the mesh's first key is [s]
   Vec3d offset{};                            // of the run's world from the mesh's [m]
+  Body early{};                              // with which the mesh comes before `start`
 
-  /// The mesh's points in the run's world at time t [m]. Before `start` the mesh has no way, and comes with
-  /// what carries `of`, this body; `head`: that of the run. Cost: that of MeshMotion::pointsAt.
-  std::vector<Vec3d> pointsAt(double t, const Body& of, const Motion& head) const;
-  /// The same seen from what carries the body at that time.
+  /// The mesh's points in the run's world at time t [m]; `head`: that of the run. Cost: that of
+  /// MeshMotion::pointsAt.
+  std::vector<Vec3d> pointsAt(double t, const Motion& head) const;
+  /// The same seen from what carries `of`, this body, at that time.
   std::vector<Vec3d> pointsSeenAt(double t, const Body& of, const Motion& head) const;
 };
 

@@ -8,6 +8,7 @@
 #include <memory>
 #include <numbers>
 
+#include "ringlet/base/mean.h"
 #include "ringlet/bodies/body_surface.h"
 #include "ringlet/bodies/head_mesh.h"
 #include "ringlet/groom/ball.h"
@@ -20,12 +21,6 @@ namespace {
 constexpr double kBelowRoots = 0.985;  // radius of the drawn skin relative to the roots' ball; hair is not
                                        // simulated to touch it
 constexpr double kPlaneShare = 6;      // side of a drawn plane relative to the hair's size
-
-Vec3d meanOf(std::span<const Vec3d> points) {
-  Vec3d sum;
-  for (const Vec3d& p : points) sum += p;
-  return sum / static_cast<double>(std::max<std::size_t>(points.size(), 1));
-}
 
 const MovingBody& movingOf(const LoadedScene& scene, std::size_t body) {
   return *std::ranges::find(scene.moving, body, &MovingBody::body);

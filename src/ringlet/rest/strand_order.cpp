@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "ringlet/base/bounds.h"
+#include "ringlet/base/mean.h"
 
 namespace ringlet {
 namespace {
@@ -45,12 +46,6 @@ std::uint64_t placeOnCurve(std::array<std::uint32_t, 3> x) {
     for (std::uint32_t axis : x) place = place << 1 | (axis >> bit & 1);
   }
   return place;
-}
-
-Vec3d meanOf(std::span<const Vec3f> points) {
-  Vec3d sum;
-  for (Vec3f p : points) sum += static_cast<Vec3d>(p);
-  return sum / std::max(1.0, static_cast<double>(points.size()));
 }
 
 std::vector<std::uint64_t> placesOnCurve(const Groom& groom) {

@@ -546,7 +546,9 @@ std::span<const SceneField<SceneBody>> bodyFields() {
         {.key = "joint",
          .unit = "",
          .standard = "none",
-         .effect = "Joint of the head's motion file that carries it, in place of the head.",
+         .effect =
+             "Joint of the head's motion file that carries it, in place of the head; the grid of a mesh that "
+             "deforms in place of what most of it moves with.",
          .member = &B::joint},
     };
     fields.insert(fields.end(), std::begin(others), std::end(others));

@@ -158,7 +158,8 @@ struct SceneBody : Body {
   std::optional<int> bindFrame;       // unset: the groom's
 
   std::string joint;                 // of the head's motion file; or
-  std::optional<SceneMotion> moves;  // its own motion, in the world; neither: the head carries it
+  std::optional<SceneMotion> moves;  // its own motion, in the world; neither: the head carries it,
+                                     // and a mesh that bends what most of it moves with
 };
 
 /// A camera for pictures: at a place, or of a glTF file.

@@ -143,8 +143,7 @@ void SceneFrames::addSteps(int frame, const SceneDrags& drags, SceneFrame& made)
   for (const MovingBody& moving : scene_->moving) {
     std::vector<Vec3d>& points = made.points.emplace_back();
     for (const double t : times)
-      std::ranges::copy(moving.pointsAt(t, scene_->bodies[moving.body], scene_->motion),
-                        std::back_inserter(points));
+      std::ranges::copy(moving.pointsAt(t, scene_->motion), std::back_inserter(points));
   }
   for (std::size_t i = 0; i < made.bodies.size() && !drags.bodies.empty(); ++i) {
     const std::size_t step = i / drags.bodies.size(), body = i % drags.bodies.size();

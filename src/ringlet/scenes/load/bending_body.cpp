@@ -15,6 +15,7 @@
 #include "ringlet/bodies/mesh_file.h"
 #include "ringlet/bodies/mesh_grid.h"
 #include "ringlet/groom/root_ends.h"
+#include "ringlet/measure/head_fit.h"
 #include "ringlet/motion/mesh_motion_file.h"
 
 namespace ringlet {
@@ -22,7 +23,8 @@ namespace {
 
 constexpr int kPadding = 3;           // cells about the part of the mesh that has a grid
 constexpr int kFirstShapeCells = 32;  // of the grid of its first shape
-constexpr double kFarther = 1.25;     // than in the frames that were looked at
+constexpr std::size_t kPointsToFit = 2000;
+constexpr double kFarther = 1.25;  // than in the frames that were looked at
 
 Result<std::shared_ptr<const MeshMotion>> meshOfBody(const SceneBody& scene, const SceneFile& file,
                                                      bool isHeads, const LoadedScene& loaded) {
@@ -68,6 +70,54 @@ Bounds common(const Bounds& a, const Bounds& b) {
           {std::min(a.high.x, b.high.x), std::min(a.high.y, b.high.y), std::min(a.high.z, b.high.z)}};
 }
 
+// Some points of a mesh near the hair, of which a rigid motion is told.
+class PointsNear {
+ public:
+  PointsNear(const std::vector<Vec3d>& points, const Bounds& near) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (near.contains(points[i])) indices_.push_back(i);
+    }
+    const std::size_t stride = 1 + indices_.size() / kPointsToFit;
+    for (std::size_t k = 0; k * stride < indices_.size(); ++k) indices_[k] = indices_[k * stride];
+    indices_.resize((indices_.size() + stride - 1) / stride);
+    first_ = of(points);
+  }
+  /// How they have moved since, as most of them did.
+  HeadPose motionTo(const std::vector<Vec3d>& points) const { return fitSharedMotion(first_, of(points)); }
+
+ private:
+  std::vector<Vec3d> of(const std::vector<Vec3d>& points) const {
+    std::vector<Vec3d> some;
+    for (const std::size_t i : indices_) some.push_back(points[i]);
+    return some;
+  }
+
+  std::vector<std::size_t> indices_;
+  std::vector<Vec3d> first_;
+};
+
+// The rigid motion that most of the mesh near the hair shares, a key a frame: what does not bend then stays
+// where it is in the grid.
+Motion sharedMotion(const MovingBody& moving, double preRollSeconds, const LoadedScene& loaded, bool isAll) {
+  const std::vector<Vec3d> first = moving.pointsAt(0, loaded.motion);
+  Bounds all = Bounds::none();
+  for (const Vec3d p : first) all.add(p);
+  const PointsNear near(first, isAll ? all : reachOfHair(loaded.groom, loaded.motion.poseAt(0), {}));
+  Keyframes keys;
+  keys.interpolation = Keyframes::Interpolation::linear;
+  keys.restsAtEnds = true;
+  const double framesPerSecond = loaded.settings.framesPerSecond;
+  const int before = static_cast<int>(std::ceil(preRollSeconds * framesPerSecond));
+  for (int frame = -before; frame <= loaded.frameCount; ++frame) {
+    keys.times.push_back(frame / framesPerSecond);
+    keys.poses.push_back(near.motionTo(moving.pointsAt(keys.times.back(), loaded.motion)));
+  }
+  Motion motion;
+  motion.kind = MotionKind::keyframes;
+  motion.keyframes = std::make_shared<const Keyframes>(std::move(keys));
+  return motion;
+}
+
 // A grid of cubes about a box.
 void setGrid(const Bounds& box, int cells, BendingMesh& mesh) {
   const Vec3d size = box.high - box.low;
@@ -98,7 +148,10 @@ Status loadBendingBody(const SceneFile& file, std::size_t index, LoadedScene& lo
     return Error{fmt::format("the body {}: {}", body.name, read.error().message), read.error().fault};
   for (const std::string& warning : (*read)->warnings())
     loaded.warnings.push_back(fmt::format("{}: {}", scene.file.string(), warning));
-  MovingBody moving{index, *read, scene.start, isHeads ? loaded.motion.start : Vec3d{}};
+  MovingBody moving{index, *read, scene.start, isHeads ? loaded.motion.start : Vec3d{}, body};
+  const bool isAll = scene.region == "all";
+  if (scene.joint.empty() && !scene.moves)
+    body.motion = sharedMotion(moving, file.motion.preRollSeconds, loaded, isAll);
 
   const auto carrierAt = [&](double t) { return body.poseAt(t, loaded.motion.poseAt(t)); };
   TriangleMesh first{moving.pointsSeenAt(0, body, loaded.motion), (*read)->triangles()};
@@ -125,7 +178,6 @@ Status loadBendingBody(const SceneFile& file, std::size_t index, LoadedScene& lo
     const double t = frame / loaded.settings.framesPerSecond;
     for (const Vec3d p : moving.pointsSeenAt(t, body, loaded.motion)) all.add(p);
   }
-  const bool isAll = scene.region == "all";
   const Bounds box =
       isAll ? all : common(all, reachOfHair(loaded.groom, loaded.motion.poseAt(0), carrierAt(0)));
   if (!(box.low.x < box.high.x && box.low.y < box.high.y && box.low.z < box.high.z))
