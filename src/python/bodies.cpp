@@ -12,8 +12,10 @@
 #include "python/arrays.h"
 #include "python/poses.h"
 #include "python/setting_values.h"
+#include "ringlet/base/bounds.h"
 #include "ringlet/bodies/body_distance.h"
 #include "ringlet/bodies/head_mesh.h"
+#include "ringlet/bodies/make_bending_mesh.h"
 #include "ringlet/bodies/mesh_file.h"
 #include "ringlet/bodies/mesh_grid.h"
 #include "ringlet/groom/generate.h"
@@ -81,15 +83,41 @@ py::tuple arraysOf(const TriangleMesh& mesh) {
   return py::make_tuple(arrayOf(mesh.points), triangles);
 }
 
+// (low, high), or None.
+std::optional<Bounds> boundsOf(const py::object& value) {
+  if (value.is_none()) return std::nullopt;
+  const Rows corners = rowsOf(value, "grid", 3);
+  if (corners.count(3) != 2)
+    throw py::value_error(fmt::format("grid is two corners, (low, high); got {}", corners.count(3)));
+  const std::vector<double>& v = corners.values;
+  return Bounds{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+}
+
 Stand standOf(const std::string& name, const py::object& position, const py::object& rotation,
               const std::optional<MotionObject>& motion) {
   return {name, {vectorOf(position, "position"), rotationOf(rotation, "rotation")}, motion};
 }
 
-BodyObject meshBody(const py::object& points, const py::object& triangles, int cells, const Stand& stand,
-                    const py::kwargs& numbers) {
-  const TriangleMesh mesh = meshOf(points, triangles);
+// As Python gives it.
+struct MeshGiven {
+  TriangleMesh mesh;
+  int cells = 64;
+  bool deforms = false;
+  std::optional<Bounds> grid{};
+};
+
+BodyObject bendingBody(MeshGiven given, Body body) {
+  const BendingRoom room = bendingRoomOf(given.mesh.points, given.grid, given.cells);
+  std::vector<std::string> warnings;
+  withoutGil([&] { demand(makeBendingMesh(std::move(given.mesh), room, body, warnings)); });
+  return checked(std::move(body), std::move(warnings));
+}
+
+BodyObject meshBody(MeshGiven given, const Stand& stand, const py::kwargs& numbers) {
   Body body = bodyOf(formOf(BodyShape::grid), stand, {}, numbers);
+  if (given.deforms) return bendingBody(std::move(given), std::move(body));
+  if (given.grid) throw py::value_error("grid is for a mesh with deforms=True");
+  const auto& [mesh, cells, deforms, grid] = given;
   MeshGrid made = withoutGil([&] { return valueOf(makeDistanceGrid(mesh, {.cells = cells})); });
   body.grid = std::make_shared<const DistanceGrid>(std::move(made.grid));
   return checked(std::move(body), std::move(made.warnings));
@@ -156,17 +184,20 @@ void addMesh(py::class_<BodyObject>& bodies) {
   const std::string doc =
       "A closed surface: points (points, 3) [m], triangles (triangles, 3) indices, counterclockwise seen from "
       "outside, as read_mesh and make_head_mesh give them. cells: of its distance grid, along its longest side, "
-      "8 to 256. Takes about a second. Its numbers, by name:" +
+      "8 to 256. deforms: it bends, and every frame gives its points (Hair.step); grid: then the box in which "
+      "hair can meet it, (low, high) in its own frame; None: about all of it. Takes about a second. Its numbers, "
+      "by name:" +
       numbersText<Body>(bodyNumbersOf(formOf(BodyShape::grid)));
   bodies.def_static(
       "mesh",
-      [](const py::object& points, const py::object& triangles, int cells, const std::string& name,
-         const py::object& position, const py::object& rotation, const std::optional<MotionObject>& motion,
-         const py::kwargs& numbers) {
-        return meshBody(points, triangles, cells, standOf(name, position, rotation, motion), numbers);
+      [](const py::object& points, const py::object& triangles, int cells, bool deforms,
+         const py::object& grid, const std::string& name, const py::object& position,
+         const py::object& rotation, const std::optional<MotionObject>& motion, const py::kwargs& numbers) {
+        return meshBody({meshOf(points, triangles), cells, deforms, boundsOf(grid)},
+                        standOf(name, position, rotation, motion), numbers);
       },
-      py::arg("points"), py::arg("triangles"), py::kw_only(), py::arg("cells") = 64, RINGLET_STAND,
-      doc.c_str());
+      py::arg("points"), py::arg("triangles"), py::kw_only(), py::arg("cells") = 64,
+      py::arg("deforms") = false, py::arg("grid") = py::none(), RINGLET_STAND, doc.c_str());
 }
 
 void addBody(py::module_& module) {

@@ -45,8 +45,12 @@ void HairObject::losing(const Status& status) {
 
 HairObject::Poses HairObject::posesOf(const Frame& frame) const {
   const auto steps = static_cast<std::size_t>(simulation_.settings().stepsPerFrame);
-  Poses poses{stepPosesOf(frame.head, simulation_.head(), static_cast<int>(steps)), frame.bodies,
-              frame.roots};
+  Poses poses{stepPosesOf(frame.head, simulation_.head(), static_cast<int>(steps)),
+              frame.bodies,
+              frame.roots,
+              {frame.points.begin(), frame.points.end()}};
+  if (const Status checked = checkBodyPoints(bendingPoints_, poses.points); !checked)
+    throw py::value_error(checked.error().message);
   if (!frame.bodies.empty() && frame.bodies.size() != steps * bodyCount_)
     throw py::value_error(
         fmt::format("body_poses must have a pose for each of {} steps and {} bodies, got {}", steps,
@@ -64,7 +68,7 @@ void HairObject::step(const Frame& frame) {
     const auto lock = lockThere();
     demandNoneInFlight("step");
     const Poses poses = posesOf(frame);
-    losing(simulation_.stepFrame(poses.heads, poses.bodies, poses.roots));
+    losing(simulation_.stepFrame(poses.heads, poses.bodies, poses.roots, poses.points));
     isWaitedFor_ = true;
   });
 }
@@ -77,7 +81,7 @@ void HairObject::submit(const Frame& frame) {
           refused(fmt::format("at most {} frames are under way: call wait() before the next submit()",
                               Simulation::kFramesInFlight)));
     const Poses poses = posesOf(frame);
-    losing(simulation_.submitFrame(poses.heads, poses.bodies, poses.roots));
+    losing(simulation_.submitFrame(poses.heads, poses.bodies, poses.roots, poses.points));
     ++inFlight_;
   });
 }
@@ -151,7 +155,7 @@ void HairObject::setBodies(std::span<const Body> bodies, std::span<const BodyPos
   withoutGil([&] {
     const auto lock = lockThere();
     demand(simulation_.setBodies(bodies, places));
-    bodyCount_ = bodies.size();
+    takeCounts(bodies);
   });
 }
 
@@ -173,7 +177,8 @@ void HairObject::stepTogether(std::span<const std::pair<HairObject*, Frame>> fra
       hair->demandThere();
       hair->demandNoneInFlight("step_frames");
       poses.push_back(hair->posesOf(frame));
-      handed.push_back({&hair->simulation_, poses.back().heads, poses.back().bodies, poses.back().roots});
+      const Poses& given = poses.back();
+      handed.push_back({&hair->simulation_, given.heads, given.bodies, given.roots, given.points});
     }
     const Status status = stepFrames(handed);
     for (const auto& [hair, frame] : frames) {
@@ -190,7 +195,7 @@ void placeInWorld(std::vector<Vec3f>& positions, const HeadPose& head, double me
 
 HairHandle makeHair(const AssetHandle& asset, const InitialState& initial) {
   Simulation made = withoutGil([&] { return valueOf(Simulation::create(asset->asset, initial)); });
-  return std::make_shared<HairObject>(asset, std::move(made), initial.bodies.size());
+  return std::make_shared<HairObject>(asset, std::move(made), initial.bodies);
 }
 
 }  // namespace ringlet::python

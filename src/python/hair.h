@@ -17,12 +17,15 @@ namespace ringlet::python {
 /// works, works without the GIL. Throws Failure, and py::value_error for poses that do not fit.
 class HairObject {
  public:
-  HairObject(AssetHandle asset, Simulation simulation, std::size_t bodyCount)
-      : asset_(std::move(asset)), simulation_(std::move(simulation)), bodyCount_(bodyCount) {}
+  HairObject(AssetHandle asset, Simulation simulation, std::span<const Body> bodies)
+      : asset_(std::move(asset)), simulation_(std::move(simulation)) {
+    takeCounts(bodies);
+  }
 
   struct Frame {
     HeadWay head{};
     std::vector<BodyPose> bodies{}, roots{};
+    std::vector<std::vector<Vec3d>> points{};  // of each body that bends
   };
   void step(const Frame& frame);
   void submit(const Frame& frame);
@@ -58,7 +61,12 @@ class HairObject {
   struct Poses {
     std::vector<HeadPose> heads;
     std::span<const BodyPose> bodies, roots;
+    std::vector<std::span<const Vec3d>> points;
   };
+  void takeCounts(std::span<const Body> bodies) {
+    bodyCount_ = bodies.size();
+    bendingPoints_ = bendingPointCounts(bodies);
+  }
   void demandProcess() const;
   void demandThere() const;
   std::unique_lock<std::mutex> lockThere();
@@ -68,10 +76,11 @@ class HairObject {
   AssetHandle asset_;
   std::mutex mutex_;
   Simulation simulation_;
-  std::size_t bodyCount_;
-  std::size_t inFlight_ = 0;     // submitted and not waited for
-  bool isWaitedFor_ = false;     // some frame was
-  std::optional<Error> lost_{};  // after which nothing can be told of it
+  std::size_t bodyCount_ = 0;
+  std::vector<std::size_t> bendingPoints_{};  // of each body that bends
+  std::size_t inFlight_ = 0;                  // submitted and not waited for
+  bool isWaitedFor_ = false;                  // some frame was
+  std::optional<Error> lost_{};               // after which nothing can be told of it
 };
 using HairHandle = std::shared_ptr<HairObject>;
 

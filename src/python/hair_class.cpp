@@ -35,8 +35,10 @@ void demandEach(std::span<const Vec3f> vectors, const char* name, const NumberRa
     throw py::value_error(status.error().message);
 }
 
-HairObject::Frame frameOf(const py::object& head, const py::object& bodyPoses, const py::object& rootPoses) {
-  return {headWayOf(head), bodyPosesOf(bodyPoses, "body_poses"), bodyPosesOf(rootPoses, "root_poses")};
+HairObject::Frame frameOf(const py::object& head, const py::object& bodyPoses, const py::object& rootPoses,
+                          const py::object& bodyPoints) {
+  return {headWayOf(head), bodyPosesOf(bodyPoses, "body_poses"), bodyPosesOf(rootPoses, "root_poses"),
+          bodyPointsOf(bodyPoints)};
 }
 
 // As Python gives it.
@@ -172,19 +174,23 @@ void addFrameSteps(HairClass& hair) {
   hair.def(
           "step",
           [](HairObject& self, const py::object& head, const py::object& bodyPoses,
-             const py::object& rootPoses) { self.step(frameOf(head, bodyPoses, rootPoses)); },
+             const py::object& rootPoses,
+             const py::object& bodyPoints) { self.step(frameOf(head, bodyPoses, rootPoses, bodyPoints)); },
           py::arg("head") = py::none(), py::kw_only(), py::arg("body_poses") = py::none(),
-          py::arg("root_poses") = py::none(),
+          py::arg("root_poses") = py::none(), py::arg("body_points") = py::none(),
           "A frame, until it is done. head: a Pose, to which it goes by a smooth way; or a pose at the end "
           "of each step, a list or an array (steps, 7); None: it stays. body_poses: (steps, bodies, 7) in "
           "the world; None: bodies go with the head. root_poses: (steps, strands, 7) in the head's frame; "
-          "None: roots stay where they are on it.")
+          "None: roots stay where they are on it. body_points: for each body that deforms, in their order, its "
+          "points in the world, (points, 3) at the frame's end or (samples, points, 3) evenly over it; None: "
+          "they keep their shape.")
       .def(
           "submit",
           [](HairObject& self, const py::object& head, const py::object& bodyPoses,
-             const py::object& rootPoses) { self.submit(frameOf(head, bodyPoses, rootPoses)); },
+             const py::object& rootPoses,
+             const py::object& bodyPoints) { self.submit(frameOf(head, bodyPoses, rootPoses, bodyPoints)); },
           py::arg("head") = py::none(), py::kw_only(), py::arg("body_poses") = py::none(),
-          py::arg("root_poses") = py::none(),
+          py::arg("root_poses") = py::none(), py::arg("body_points") = py::none(),
           "Hands a frame to the device and returns: wait() for it later. Two may be under way. Takes what "
           "step takes, and gives the same bits.")
       .def("wait", &HairObject::wait,
@@ -416,21 +422,22 @@ void addHairClass(py::module_& module) {
   addReports(hair);
 }
 
-// Each is (hair, head), (hair, head, body_poses) or (hair, head, body_poses, root_poses).
+// Each has what Hair.step takes.
 void stepAll(const py::iterable& frames) {
   std::vector<py::object> keptAlive;
   std::vector<std::pair<HairObject*, HairObject::Frame>> all;
   for (const py::handle entry : frames) {
     const char* expected =
-        "a frame is a tuple (hair, head), (hair, head, body_poses) or (hair, head, body_poses, root_poses)";
+        "a frame is a tuple (hair, head, body_poses, root_poses, body_points), of which the last three may be "
+        "left out";
     if (!py::isinstance<py::tuple>(entry))
       throw py::type_error(fmt::format("{}, got {}", expected, describe(entry)));
     const auto frame = py::reinterpret_borrow<py::tuple>(entry);
-    if (frame.size() < 2 || frame.size() > 4 || !py::isinstance<HairObject>(frame[0]))
+    if (frame.size() < 2 || frame.size() > 5 || !py::isinstance<HairObject>(frame[0]))
       throw py::type_error(fmt::format("{}, got {}", expected, describe(entry)));
     const auto at = [&](std::size_t i) { return i < frame.size() ? py::object(frame[i]) : py::none(); };
     keptAlive.push_back(at(0));
-    all.emplace_back(&at(0).cast<HairObject&>(), frameOf(at(1), at(2), at(3)));
+    all.emplace_back(&at(0).cast<HairObject&>(), frameOf(at(1), at(2), at(3), at(4)));
   }
   HairObject::stepTogether(all);
 }
@@ -442,8 +449,8 @@ void addHair(py::module_& module) {
   module.def(
       "step_frames", &stepAll, py::arg("frames"),
       "A frame of each of several heads, in one submission, which fills a device better than one after the "
-      "other; the same bits. frames: tuples (hair, head), (hair, head, body_poses) or (hair, head, "
-      "body_poses, root_poses), as step takes them; all on one device, each hair once.");
+      "other; the same bits. frames: tuples (hair, head, body_poses, root_poses, body_points), as step takes "
+      "them, of which the last three may be left out; all on one device, each hair once.");
   module.def(
       "positions_hash",
       [](const py::object& positions) { return positionsHash(PointsIn(positions, "positions").points()); },

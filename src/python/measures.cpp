@@ -292,7 +292,7 @@ void addBodyWatch(py::module_& module) {
       .def(
           "look",
           [](BodyWatchObject& self, const py::object& positions, const py::object& head,
-             const py::object& bodyPoses) {
+             const py::object& bodyPoses, const py::object& bodyPoints) {
             const PointsIn in(positions, "positions", self.particleCount);
             const HeadPose at = head.is_none() ? HeadPose{} : poseOf(head, "head");
             std::vector<BodyPose> poses = bodyPosesOf(bodyPoses, "body_poses");
@@ -301,11 +301,17 @@ void addBodyWatch(py::module_& module) {
             if (poses.size() != self.bodies.size())
               throw py::value_error(fmt::format("body_poses must have a pose for each of {} bodies, got {}",
                                                 self.bodies.size(), poses.size()));
-            self.watch.look(in.points(), at, poses);
+            const std::vector<std::vector<Vec3d>> given = bodyPointsOf(bodyPoints);
+            const std::vector<std::span<const Vec3d>> points(given.begin(), given.end());
+            if (const Status checked = checkBodyPoints(bendingPointCounts(self.bodies), points); !checked)
+              throw py::value_error(checked.error().message);
+            self.watch.look(in.points(), at, poses, points);
           },
           py::arg("positions"), py::arg("head") = py::none(), py::arg("body_poses") = py::none(),
+          py::arg("body_points") = py::none(),
           "positions: (particles, 3) float32 [m], as positions() gives them; head: where it is, a Pose; "
-          "body_poses: (bodies, 7) in the world; None: with the head.")
+          "body_poses: (bodies, 7) in the world; None: with the head. body_points: of each body that deforms, "
+          "(points, 3) in the world; None: as they were at first.")
       .def(
           "numbers",
           [](const BodyWatchObject& self) {

@@ -359,6 +359,21 @@ std::vector<HeadPose> stepPosesOf(const HeadWay& way, const HeadPose& now, int s
   return poses;
 }
 
+std::vector<std::vector<Vec3d>> bodyPointsOf(const py::object& value) {
+  std::vector<std::vector<Vec3d>> all;
+  if (value.is_none()) return all;
+  if (!py::isinstance<py::sequence>(value) || py::isinstance<py::array>(value))
+    throw py::type_error(
+        fmt::format("body_points is a list with an array for each body that bends, got {}", describe(value)));
+  for (const py::handle each : value) {
+    const Rows rows = rowsOf(py::reinterpret_borrow<py::object>(each), "body_points", 3);
+    std::vector<Vec3d>& points = all.emplace_back();
+    for (std::size_t i = 0; i < rows.count(3); ++i)
+      points.push_back({rows.values[3 * i], rows.values[3 * i + 1], rows.values[3 * i + 2]});
+  }
+  return all;
+}
+
 std::vector<BodyPose> bodyPosesOf(const py::object& value, const char* name) {
   std::vector<BodyPose> poses;
   if (value.is_none()) return poses;

@@ -42,6 +42,8 @@ std::vector<HeadPose> stepPosesOf(const HeadWay& way, const HeadPose& now, int s
 
 /// Poses of `count` things, of None, a sequence of Poses, or an array (count, 7).
 std::vector<BodyPose> bodyPosesOf(const py::object& value, const char* name);
+/// Points of bodies that bend, of None or a list of arrays (points, 3) or (samples, points, 3).
+std::vector<std::vector<Vec3d>> bodyPointsOf(const py::object& value);
 
 /// (count, 8), and (steps, count / steps, 7).
 py::object arrayOf(std::span<const HeadPose> poses);

@@ -98,7 +98,9 @@ SceneFrame frameOf(const LoadedScene& scene, int frame) {
 }
 
 // As hair takes it.
-HairObject::Frame posesOf(const SceneFrame& frame) { return {frame.heads, frame.bodies, frame.roots}; }
+HairObject::Frame posesOf(const SceneFrame& frame) {
+  return {frame.heads, frame.bodies, frame.roots, frame.points};
+}
 
 void demandFrame(int frame) {
   if (frame < -kMostFrame || frame > kMostFrame)
@@ -147,6 +149,15 @@ py::tuple sceneFramePoses(const SceneObject& self, int frame) {
     return each.empty() ? py::object(py::none()) : arrayOf(each, now.stepCount());
   };
   return py::make_tuple(arrayOf(now.heads), given(now.bodies), given(now.roots));
+}
+
+py::list sceneFramePoints(const SceneObject& self, int frame) {
+  demandFrame(frame);
+  const SceneFrame now = frameOf(self.loaded, frame);
+  py::list all;
+  for (const std::vector<Vec3d>& points : now.points)
+    all.append(arrayOf(points).attr("reshape")(now.stepCount(), -1, 3));
+  return all;
 }
 
 using SceneClass = py::class_<SceneObject>;
@@ -242,6 +253,9 @@ void addSceneFrames(SceneClass& scene) {
       .def("frame_poses", &sceneFramePoses, py::arg("frame"),
            "Where everything is at the end of each step of a frame, 0 the first: (head, body_poses, "
            "root_poses), as Hair.step takes them; None where there are none.")
+      .def("frame_points", &sceneFramePoints, py::arg("frame"),
+           "Where the meshes of bodies that bend are at the end of each step of a frame: body_points as "
+           "Hair.step takes them, (steps, points, 3) each.")
       .def(
           "start",
           [](const SceneObject& self, const DeviceHandle& device, const std::string& kernel) {

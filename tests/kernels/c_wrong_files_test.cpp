@@ -68,6 +68,19 @@ struct Good : Handles {
         << ringlet_error_message();
     return animation;
   }
+  // A scene with a body that bends, of four points.
+  ringlet_scene* bending() {
+    for (const char* frame : {"b.1.obj", "b.2.obj"})
+      std::ofstream(folder / frame)
+          << "v 0 -1 0\nv 1 -1 0\nv 0 -1 -1\nv 0 0 0\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+    const std::string text =
+        kScene +
+        std::string("[[body]]\nshape = 'mesh'\nfile = 'b.#.obj'\nunit = 1\ncells = 8\ndeforms = true\n");
+    ringlet_scene* made = nullptr;
+    EXPECT_EQ(ringlet_scene_parse(text.c_str(), folder.c_str(), nullptr, &made), RINGLET_OK)
+        << ringlet_error_message();
+    return made;
+  }
   ringlet_frames* opened() {
     ringlet_frames* made = nullptr;
     EXPECT_EQ(ringlet_frames_open(frames.c_str(), nullptr, nullptr, &made), RINGLET_OK);
@@ -198,6 +211,16 @@ std::vector<Call> sceneCalls(Good& c) {
        [&c](unsigned n) {
          return ringlet_scene_frame_poses(orNull(c.loaded, n, 0), 0, orNull(c.poses, n, 1),
                                           orNull(c.poses + 4, n, 2), orNull(c.poses, n, 3));
+       }},
+      {"ringlet_scene_frame_points",
+       {"scene", "[xyz]", "vertex_count"},
+       [&c](unsigned n) {
+         ringlet_scene* scene = c.bending();
+         double xyz[4 * 4 * 3];
+         std::uint32_t count = 0;
+         const auto result =
+             ringlet_scene_frame_points(orNull(scene, n, 0), 0, 0, orNull(xyz, n, 1), orNull(&count, n, 2));
+         return released(scene, ringlet_scene_release, result);
        }},
   };
 }

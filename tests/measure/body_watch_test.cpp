@@ -6,6 +6,8 @@
 #include <random>
 
 #include "ringlet/bodies/body_distance.h"
+#include "ringlet/bodies/make_bending_mesh.h"
+#include "tests/bodies/body_samples.h"
 #include "tests/support/sample_bodies.h"
 
 namespace ringlet::test::body_watch_test {
@@ -112,6 +114,30 @@ TEST(BodyWatch, LeavesOutNothingThatIsInside) {
   EXPECT_EQ(seen.particle, expected.particle);
   EXPECT_EQ(seen.frame, expected.frame);
   EXPECT_EQ(seen.inside, expected.inside);
+}
+
+// A ball that bends: as it was at first, then where its points are, by its triangles and not by a grid.
+TEST(BodyWatch, SeesWhereABodyBendsTo) {
+  const TriangleMesh ball = sphereMesh(0.1, 12);
+  std::vector<std::string> warnings;
+  std::vector<Body> bodies{{.radius = 0.01}, {.name = "ball", .shape = BodyShape::grid}};
+  ASSERT_TRUE(makeBendingMesh(ball, bendingRoomOf(ball.points, {}, 16), bodies[1], warnings));
+  Groom groom;
+  groom.metresPerUnit = 1;
+  groom.addStrand(std::vector<Vec3f>{{0, 0, 0}, {0.2f, 0, 0}, {0, 0.3f, 0}, {0, 0, 0.05f}});
+  const std::vector<BodyPose> poses{{{9, 0, 0}, {}}, {{1, 0, 0}, {}}};
+  const HeadPose head{{1, 0, 0}, {}};
+  BodyWatch watch(groom, bodies, 1);
+  watch.look(groom.points, head, poses);
+  EXPECT_EQ(watch.numbers().deepest, 0);
+  EXPECT_EQ(watch.numbers().inside, 1u);  // the last
+  std::vector<Vec3d> twice;
+  for (const Vec3d& p : ball.points) twice.push_back(p * 2.5 + Vec3d{1, 0, 0});
+  const std::span<const Vec3d> points(twice);
+  watch.look(groom.points, head, poses, std::span(&points, 1));
+  EXPECT_NEAR(watch.numbers().deepest, 0.05, 0.002);
+  EXPECT_EQ(watch.numbers().particle, 1);
+  EXPECT_EQ(watch.numbers().frame, 1);
 }
 
 }  // namespace

@@ -347,7 +347,7 @@ def test_frames(device, groom, small):
         with pytest.raises(ValueError, match="for each of 8 steps"):
             moving.step(**values)
     moving.step(rows, body_poses=rows[:, None], root_poses=np.tile(rows[:, None], (1, 2, 1)))
-    for frames in (3, None, [hair], [(hair,)], [(hair, None, None, None, None)], [(small, None)], [[hair, None]]):
+    for frames in (3, None, [hair], [(hair,)], [(hair, None, None, None, None, None)], [(small, None)], [[hair, None]]):
         with pytest.raises(TypeError):
             ringlet.step_frames(frames)
     with pytest.raises(ValueError, match="twice"):

@@ -154,6 +154,63 @@ def test_a_scene_stepped_by_hand_has_the_bits_of_its_run(device):
     assert np.array_equal(hair.positions(), expected)
 
 
+def ball(share):
+    """Points and triangles of an octahedron of 6 cm that swells by half."""
+    points = np.concatenate([np.eye(3), -np.eye(3)]) * 0.03 * (1 + 0.5 * share) - (0, 0.1, 0)
+    corners = [[a, b + 1, c + 2] for a in (0, 3) for b in (0, 3) for c in (0, 3)]
+    return points, [t if sum(i > 2 for i in t) % 2 == 0 else t[::-1] for t in corners]
+
+
+def test_a_scene_with_a_body_that_bends_has_the_bits_of_its_run(device, tmp_path):
+    triangles = "".join("f {} {} {}\n".format(*(i + 1 for i in t)) for t in ball(0)[1])
+    for k in range(4):
+        vertices = "".join("v {:.9g} {:.9g} {:.9g}\n".format(*p) for p in ball(k / 3)[0])
+        (tmp_path / f"ball.{k}.obj").write_text(vertices + triangles)
+    scene = ringlet.Scene.parse(
+        "[groom]\ngenerate = 'swatch'\ncolumns = 2\nrows = 2\nparticles = 12\n"
+        "[simulation]\nframes = 3\nfps = 30\nsteps_per_frame = 4\n"
+        "[[body]]\nname = 'ball'\nshape = 'mesh'\nfile = 'ball.#.obj'\nunit = 1\ncells = 16\ndeforms = true\n", tmp_path)
+    expected = scene.run(device=device).positions()
+    by_scene, by_hand, rigid = (scene.start(device) for _ in range(3))
+    for frame in range(3):
+        scene.step(by_scene, frame)
+        head, bodies, _ = scene.frame_poses(frame)
+        (points,) = scene.frame_points(frame)
+        assert points.shape == (4, 6, 3)
+        by_hand.step(head, body_poses=bodies, body_points=[points])
+        rigid.step(head, body_poses=bodies)
+    assert np.array_equal(by_scene.positions(), expected)
+    assert np.array_equal(by_hand.positions(), expected)
+    assert not np.array_equal(rigid.positions(), expected)
+
+
+def test_a_mesh_that_deforms_takes_its_points_from_each_frame(device):
+    groom = ringlet.make_swatch(columns=2, rows=2, particles=12)
+    grid = ((-0.2, -0.3, -0.2), (0.2, 0.1, 0.2))
+    body = ringlet.Body.mesh(*ball(0), deforms=True, grid=grid, cells=16, name="ball")
+    assert body.warnings == []
+    asset = ringlet.Asset(device, groom)
+    one, together, still = (ringlet.Hair(asset, bodies=[body]) for _ in range(3))
+    for frame in range(3):
+        points = np.stack([ball((frame + share) / 3)[0] for share in (0.5, 1)])
+        one.step(body_points=[points])
+        ringlet.step_frames([(together, None, None, None, [points])])
+        still.step()
+    assert np.array_equal(one.positions(), together.positions())
+    assert not np.array_equal(one.positions(), still.positions())
+    for points, part in (([points, points], "points of 2 bodies, and 1"), ([points[0, :5]], "5 points of bending body 0"),
+                         ([points[:, :, :2]], "body_points"), ([points * np.nan], "body_points")):
+        with pytest.raises(ValueError, match=part):
+            one.step(body_points=points)
+    with pytest.raises(TypeError, match="a list with an array for each body"):
+        one.step(body_points=points[0])
+    for wrong, part in ({"grid": grid[::-1]}, "without room"), ({"cells": 4}, "8 to 256"), ({"grid": [1, 2, 3]}, "two corners"):
+        with pytest.raises((ValueError, ringlet.Error), match=part):
+            ringlet.Body.mesh(*ball(0), **{"deforms": True, "cells": 16, **wrong})
+    with pytest.raises(ValueError, match="deforms=True"):
+        ringlet.Body.mesh(*ball(0), cells=16, grid=grid)
+
+
 @pytest.mark.parametrize("name", ["cut", "fields", "pre-roll"])
 def test_step_does_what_keys_fields_and_cuts_say(device, name, tmp_path):
     smoke = np.zeros((4, 4, 4, 3), np.float32)

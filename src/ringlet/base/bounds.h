@@ -24,6 +24,8 @@ struct Bounds {
   bool contains(Vec3d p) const {
     return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y && low.z <= p.z && p.z <= high.z;
   }
+  /// Whether it has a size along each axis.
+  bool hasRoom() const { return low.x < high.x && low.y < high.y && low.z < high.z; }
   Vec3d middle() const { return (low + high) / 2.0; }
   double diagonal() const { return length(high - low); }
 

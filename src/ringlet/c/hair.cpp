@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "ringlet/bodies/make_bending_mesh.h"
 #include "ringlet/bodies/mesh_grid.h"
 #include "ringlet/c/handles.h"
 #include "ringlet/c/poses.h"
@@ -31,7 +32,24 @@ struct TakenFrame {
   ringlet_hair* hair = nullptr;
   std::vector<HeadPose> head;
   std::vector<BodyPose> bodies, roots;
+  std::vector<std::vector<Vec3d>> points;
+  std::vector<std::span<const Vec3d>> bodyPoints;
 };
+
+// Of the bodies that bend; nothing to take is fine.
+Outcome takePoints(const ringlet_frame& frame, TakenFrame& taken) {
+  if (!frame.body_points) return {};
+  const std::vector<std::size_t>& counts = taken.hair->bendingPoints;
+  for (std::size_t b = 0; b < counts.size(); ++b) {
+    if (!frame.body_points[b] || frame.point_samples == 0)
+      return Outcome::invalid(fmt::format("a frame has no points of bending body {}", b));
+    std::vector<Vec3d>& points = taken.points.emplace_back(counts[b] * frame.point_samples);
+    const double* xyz = frame.body_points[b];
+    for (Vec3d& point : points) point = {xyz[0], xyz[1], xyz[2]}, xyz += 3;
+  }
+  taken.bodyPoints.assign(taken.points.begin(), taken.points.end());
+  return checkBodyPoints(counts, taken.bodyPoints);
+}
 
 Outcome take(const ringlet_frame& frame, TakenFrame& taken) {
   if (!frame.hair || !frame.step_poses)
@@ -47,7 +65,7 @@ Outcome take(const ringlet_frame& frame, TakenFrame& taken) {
   if (!takePoses(frame.step_poses, steps, taken.head) || !takePoses(frame.body_poses, bodies, taken.bodies) ||
       !takePoses(frame.root_poses, roots, taken.roots))
     return notFinite("a frame");
-  return {};
+  return takePoints(frame, taken);
 }
 
 Outcome takeAll(const ringlet_frame* frames, uint32_t count, std::vector<TakenFrame>& taken) {
@@ -68,20 +86,35 @@ Outcome takeAll(const ringlet_frame* frames, uint32_t count, std::vector<TakenFr
 std::vector<HairFrame> hairFramesOf(const std::vector<TakenFrame>& taken) {
   std::vector<HairFrame> frames;
   for (const TakenFrame& frame : taken)
-    frames.push_back({&frame.hair->simulation, frame.head, frame.bodies, frame.roots});
+    frames.push_back({&frame.hair->simulation, frame.head, frame.bodies, frame.roots, frame.bodyPoints});
   return frames;
 }
 
-// The grid of a mesh of the caller's.
-Result<std::shared_ptr<const DistanceGrid>> gridOf(const ringlet_body& from, const std::string& name) {
+TriangleMesh meshOf(const ringlet_body& from) {
   TriangleMesh mesh;
   for (std::size_t v = 0; from.vertices && v < from.vertex_count; ++v)
     mesh.points.push_back({from.vertices[3 * v], from.vertices[3 * v + 1], from.vertices[3 * v + 2]});
   for (std::size_t t = 0; from.triangles && t < from.triangle_count; ++t)
     mesh.triangles.push_back({from.triangles[3 * t], from.triangles[3 * t + 1], from.triangles[3 * t + 2]});
-  auto grid = makeDistanceGrid(mesh, {.cells = from.cells == 0 ? 64 : from.cells});
-  if (!grid) return Error{fmt::format("{}: {}", name, grid.error().message), grid.error().fault};
-  return std::make_shared<const DistanceGrid>(std::move(grid->grid));
+  return mesh;
+}
+
+// The grid, or grids, of a mesh of the caller's.
+Status makeGrid(const ringlet_body& from, Body& body) {
+  TriangleMesh mesh = meshOf(from);
+  const int cells = from.cells == 0 ? 64 : from.cells;
+  if (from.deforms) {
+    std::optional<Bounds> grid = Bounds{{from.grid_low[0], from.grid_low[1], from.grid_low[2]},
+                                        {from.grid_high[0], from.grid_high[1], from.grid_high[2]}};
+    if (*grid == Bounds{}) grid.reset();
+    const BendingRoom room = bendingRoomOf(mesh.points, grid, cells);
+    std::vector<std::string> warnings;  // there is no place for them
+    return makeBendingMesh(std::move(mesh), room, body, warnings);
+  }
+  auto grid = makeDistanceGrid(mesh, {.cells = cells});
+  if (!grid) return grid.error();
+  body.grid = std::make_shared<const DistanceGrid>(std::move(grid->grid));
+  return {};
 }
 
 Outcome takeBody(const ringlet_body& from, std::uint32_t index, Body& body) {
@@ -96,9 +129,8 @@ Outcome takeBody(const ringlet_body& from, std::uint32_t index, Body& body) {
   if (!place) return Error{fmt::format("{} {}", body.name, kWrongPose)};
   body.place = *place;
   if (body.shape != BodyShape::grid) return {};
-  auto grid = gridOf(from, body.name);
-  if (!grid) return grid.error();
-  body.grid = std::move(*grid);
+  if (Status made = makeGrid(from, body); !made)
+    return Error{fmt::format("{}: {}", body.name, made.error().message), made.error().fault};
   return {};
 }
 
@@ -169,6 +201,7 @@ Outcome createHair(const ringlet_asset& asset, const InitialState& initial, ring
                            .particleCount = asset.asset.particleCount(),
                            .strandCount = asset.asset.strandCount(),
                            .bodyCount = static_cast<std::uint32_t>(initial.bodies.size()),
+                           .bendingPoints = bendingPointCounts(initial.bodies),
                            .devicePositions = std::move(positions),
                            .scene = asset.scene};
   return {};
@@ -379,6 +412,7 @@ ringlet_result ringlet_hair_set_bodies(ringlet_hair* hair, const ringlet_body* b
     if (Outcome outcome = takeBodies(bodies, body_count, taken); !outcome.isFine()) return outcome;
     if (Status status = hair->simulation.setBodies(taken); !status) return status;
     hair->bodyCount = body_count;
+    hair->bendingPoints = bendingPointCounts(taken);
     return {};
   });
 }

@@ -39,6 +39,7 @@ struct ringlet_hair {
   ringlet::ComputeDevice device;
   std::uint64_t particleCount, strandCount;
   std::uint32_t bodyCount;
+  std::vector<std::size_t> bendingPoints{};  // of each body that bends
   std::vector<ringlet::DevicePositions> devicePositions{};
   std::shared_ptr<const void> scene{};  // the asset's
   int recordedFrames = 0;               // in commands of the host's, and not over

@@ -121,7 +121,8 @@ ringlet_result ringlet_scene_get(const ringlet_scene* scene, ringlet_scene_facts
                  .steps_per_frame = static_cast<uint32_t>(of.settings.stepsPerFrame),
                  .body_count = static_cast<uint32_t>(of.bodies.size()),
                  .strand_count = static_cast<uint32_t>(of.groom.strandCount()),
-                 .moving_roots = of.scalp.has_value()});
+                 .moving_roots = of.scalp.has_value(),
+                 .bending_body_count = static_cast<uint32_t>(of.moving.size())});
     return {};
   });
 }
@@ -173,6 +174,28 @@ ringlet_result ringlet_scene_frame_poses(const ringlet_scene* scene, int32_t fra
     show(poses->heads, step_poses);
     if (body_poses) show(poses->bodies, body_poses);
     if (root_poses) show(poses->roots, root_poses);
+    return {};
+  });
+}
+
+ringlet_result ringlet_scene_frame_points(const ringlet_scene* scene, int32_t frame, uint32_t bending_body,
+                                          double* xyz, uint32_t* vertex_count) {
+  return guarded([&]() -> Outcome {
+    if (Outcome wrong =
+            checkArguments("ringlet_scene_frame_points takes a scene and a place for the number of vertices",
+                           {given("scene", scene), given("vertex_count", vertex_count)});
+        !wrong.isFine())
+      return wrong;
+    if (Outcome wrong = checkFrame(frame); !wrong.isFine()) return wrong;
+    const std::vector<MovingBody>& moving = scene->loaded->moving;
+    if (bending_body >= moving.size())
+      return Outcome::invalid(
+          fmt::format("there is no bending body {}; the scene has {}", bending_body, moving.size()));
+    *vertex_count = static_cast<uint32_t>(moving[bending_body].mesh->pointCount());
+    if (!xyz) return {};
+    const auto made = SceneFrames(*scene->loaded).at(frame);
+    if (!made) return made.error();
+    for (const Vec3d& p : made->points[bending_body]) *xyz++ = p.x, *xyz++ = p.y, *xyz++ = p.z;
     return {};
   });
 }

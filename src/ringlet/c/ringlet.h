@@ -193,7 +193,11 @@ typedef struct ringlet_body {
   uint32_t vertex_count;
   const uint32_t* triangles; /* three vertices each, counterclockwise seen from outside */
   uint32_t triangle_count;
-  int32_t cells; /* cells of the mesh's distance grid along its longest side; 0 means 64 */
+  int32_t cells;   /* cells of the mesh's distance grid along its longest side; 0 means 64 */
+  int32_t deforms; /* 1 for a mesh that bends: frames give its points; `vertices` are where it is at first */
+  /* Of a mesh that bends: the box in which hair can meet it, in the frame of its pose, which has the grid;
+     all 0 means all of the mesh and some room about it (makeBendingMesh in bodies/make_bending_mesh.h). */
+  double grid_low[3], grid_high[3];
 } ringlet_body;
 
 typedef struct ringlet_initial_state {
@@ -218,6 +222,10 @@ typedef struct ringlet_frame {
   uint32_t step_count;
   const ringlet_pose* body_poses; /* in the world, [step][body]; NULL: the head carries the bodies */
   const ringlet_pose* root_poses; /* in the head's frame, [step][strand]; NULL: roots stay in place */
+  /* Of each body that deforms, in their order: [sample][vertex][x, y, z] in the world [m], samples spread
+     evenly over the frame, the last at its end (BodyPoints in scene/body.h); NULL: they keep their shape. */
+  const double* const* body_points;
+  uint32_t point_samples;
 } ringlet_frame;
 
 /* Computes a frame of each hair in one submission and waits for it. Each hair may occur once. */

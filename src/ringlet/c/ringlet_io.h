@@ -95,6 +95,7 @@ typedef struct ringlet_scene_facts {
   uint32_t body_count;
   uint32_t strand_count;
   int moving_roots; /* 1 if strands have poses of their own */
+  uint32_t bending_body_count;
 } ringlet_scene_facts;
 ringlet_result ringlet_scene_get(const ringlet_scene* scene, ringlet_scene_facts* facts);
 
@@ -106,6 +107,10 @@ ringlet_result ringlet_scene_settings(const ringlet_scene* scene, ringlet_settin
 ringlet_result ringlet_scene_material(const ringlet_scene* scene, ringlet_material** material);
 ringlet_result ringlet_scene_frame_poses(const ringlet_scene* scene, int32_t frame, ringlet_pose* step_poses,
                                          ringlet_pose* body_poses, ringlet_pose* root_poses);
+/* The points of one of the scene's bodies that bend, with as many samples as steps, as ringlet_frame has
+   them. `vertex_count` is set to those of its mesh; `xyz` may be NULL. */
+ringlet_result ringlet_scene_frame_points(const ringlet_scene* scene, int32_t frame, uint32_t bending_body,
+                                          double* xyz, uint32_t* vertex_count);
 
 /* The scene's hair as its run begins: an asset, built for all that the scene has and what `options` says
    besides, and hair of it with the scene's bodies, after the pre-roll. `options` may be NULL. */

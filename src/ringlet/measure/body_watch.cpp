@@ -5,6 +5,7 @@
 
 #include "ringlet/base/assert.h"
 #include "ringlet/bodies/body_distance.h"
+#include "ringlet/bodies/triangle_tree.h"
 
 namespace ringlet {
 namespace {
@@ -31,6 +32,38 @@ struct Clearance {
   }
 };
 
+// The triangles of a body that bends, in the world; without points as it was at first.
+class BentSurface {
+ public:
+  BentSurface(const Body& body, const BodyPose& pose, std::span<const Vec3d> points)
+      : thickness_(body.thickness), tree_(meshOf(body, pose, points)) {}
+
+  /// From its surface, thickness included [m]; negative inside. Cheapest where each place is near the last.
+  double distanceTo(Vec3d place) {
+    const TriangleTree::Nearest nearest = tree_.nearest(place, last_.entry);
+    // Two balls that hold no surface and meet are on one side of it.
+    const bool isOnLastSide = length(place - lastPlace_) < nearest.distance + last_.distance;
+    if (!isOnLastSide) isLastInside_ = tree_.windingNumber(place) > 0.5;
+    last_ = nearest;
+    lastPlace_ = place;
+    return (isLastInside_ ? -nearest.distance : nearest.distance) - thickness_;
+  }
+
+ private:
+  static TriangleMesh meshOf(const Body& body, const BodyPose& pose, std::span<const Vec3d> points) {
+    std::vector<Vec3d> own(points.begin(), points.end());
+    for (std::size_t i = 0; points.empty() && i < body.mesh->points.size(); ++i)
+      own.push_back(pose.position + rotate(pose.rotation, body.mesh->points[i]));
+    return {body.mesh->surface.pointsOf(own), body.mesh->surface.triangles};
+  }
+
+  double thickness_;
+  TriangleTree tree_;
+  TriangleTree::Nearest last_{.distance = -1e300};  // of the place before; at first there is none
+  Vec3d lastPlace_{};
+  bool isLastInside_ = false;
+};
+
 }  // namespace
 
 BodyWatch::BodyWatch(const Groom& groom, std::span<const Body> bodies, int rootCount)
@@ -39,34 +72,52 @@ BodyWatch::BodyWatch(const Groom& groom, std::span<const Body> bodies, int rootC
       rootCount_(static_cast<std::size_t>(rootCount)),
       seen_(groom.points.size() * bodies.size(), kInside) {}
 
-void BodyWatch::look(std::span<const Vec3f> positions, const HeadPose& head,
-                     std::span<const BodyPose> poses) {
+// distanceAt: of a place relative to the head's origin [m]; steepest: its slope at most.
+template <class Distance>
+void BodyWatch::lookAt(std::size_t body, std::span<const Vec3f> positions, double steepest,
+                       const Distance& distanceAt) {
+  for (std::size_t s = 0; s + 1 < firstPoint_.size(); ++s) {
+    Clearance clearance;
+    for (std::size_t i = firstPoint_[s] + rootCount_; i < firstPoint_[s + 1]; ++i) {
+      const Vec3d place(positions[i]);
+      std::uint8_t& seen = seen_[body * positions.size() + i];
+      if (clearance.has(place)) {
+        seen = kOutside;
+        continue;
+      }
+      const double distance = distanceAt(place);
+      clearance = {place, distance / steepest};
+      // Particles in the ball are not measured, so their distance may be this small.
+      numbers_.nearest = std::min(numbers_.nearest, distance - std::max(0., clearance.radius));
+      if (distance >= 0) seen = kOutside;
+      if (seen == kInside && distance >= -kOnSurface) seen = kOnIt;
+      if (seen != kOutside || !(-distance > numbers_.deepest)) continue;
+      numbers_.deepest = -distance;
+      numbers_.strand = static_cast<std::int64_t>(s);
+      numbers_.particle = static_cast<std::int64_t>(i - firstPoint_[s]);
+      numbers_.frame = looks_;
+    }
+  }
+}
+
+void BodyWatch::look(std::span<const Vec3f> positions, const HeadPose& head, std::span<const BodyPose> poses,
+                     BodyPoints points) {
   RINGLET_ASSERT(poses.size() == bodies_.size(), "every body has a pose");
   RINGLET_ASSERT(positions.size() * bodies_.size() == seen_.size(), "every particle has a position");
+  RINGLET_ASSERT(!!checkBodyPoints(bendingPointCounts(bodies_), points),
+                 "every mesh that bends has its points");
+  std::size_t bending = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (bodies_[b].bends()) continue;
-    for (std::size_t s = 0; s + 1 < firstPoint_.size(); ++s) {
-      Clearance clearance;
-      for (std::size_t i = firstPoint_[s] + rootCount_; i < firstPoint_[s + 1]; ++i) {
-        const Vec3d place(positions[i]);
-        std::uint8_t& seen = seen_[b * positions.size() + i];
-        if (clearance.has(place)) {
-          seen = kOutside;
-          continue;
-        }
-        const double distance = distanceTo(bodies_[b], poses[b], head.position + place);
-        clearance = {place, distance / kSteepest};
-        // Particles in the ball are not measured, so their distance may be this small.
-        numbers_.nearest = std::min(numbers_.nearest, distance - std::max(0., clearance.radius));
-        if (distance >= 0) seen = kOutside;
-        if (seen == kInside && distance >= -kOnSurface) seen = kOnIt;
-        if (seen != kOutside || !(-distance > numbers_.deepest)) continue;
-        numbers_.deepest = -distance;
-        numbers_.strand = static_cast<std::int64_t>(s);
-        numbers_.particle = static_cast<std::int64_t>(i - firstPoint_[s]);
-        numbers_.frame = looks_;
-      }
+    const Body& body = bodies_[b];
+    if (!body.bends()) {
+      lookAt(b, positions, kSteepest,
+             [&](Vec3d place) { return distanceTo(body, poses[b], head.position + place); });
+      continue;
     }
+    BentSurface surface(
+        body, poses[b],
+        points.empty() ? std::span<const Vec3d>() : points[bending++].last(body.mesh->points.size()));
+    lookAt(b, positions, 1, [&](Vec3d place) { return surface.distanceTo(head.position + place); });
   }
   ++looks_;
 }
@@ -75,7 +126,6 @@ BodyNumbers BodyWatch::numbers() const {
   BodyNumbers numbers = numbers_;
   const std::size_t count = bodies_.empty() ? 0 : seen_.size() / bodies_.size();
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (bodies_[b].bends()) continue;
     for (std::size_t s = 0; s + 1 < firstPoint_.size(); ++s) {
       for (std::size_t i = firstPoint_[s] + rootCount_; i < firstPoint_[s + 1]; ++i)
         numbers.inside += seen_[b * count + i] == kInside ? 1 : 0;

@@ -1,4 +1,4 @@
-// BodyWatch: how deep hair gets into bodies, over a run. Bodies that bend are not looked at.
+// BodyWatch: how deep hair gets into bodies, over a run; into those that bend by their triangles.
 #pragma once
 
 #include <cstddef>
@@ -29,9 +29,12 @@ class BodyWatch {
   /// The first `rootCount` particles of a strand follow the head and are not counted.
   BodyWatch(const Groom& groom, std::span<const Body> bodies, int rootCount);
 
-  /// Positions relative to the head's origin, groom order [m]; poses of the bodies in the world. Cost: some
-  /// 20 ns a particle and body, 100 for a distance grid; less if the particle before it is far from the body.
-  void look(std::span<const Vec3f> positions, const HeadPose& head, std::span<const BodyPose> poses);
+  /// Positions relative to the head's origin, groom order [m]; poses of the bodies in the world; points of
+  /// the meshes that bend, of which the last sample counts, empty: as they were at first. Cost: some 20 ns a
+  /// particle and body, 100 for a distance grid, some microseconds for a mesh that bends; less if the
+  /// particle before it is far from the body.
+  void look(std::span<const Vec3f> positions, const HeadPose& head, std::span<const BodyPose> poses,
+            BodyPoints points = {});
 
   BodyNumbers numbers() const;
   /// Archives what was seen so far, for a checkpoint.
@@ -42,6 +45,10 @@ class BodyWatch {
   }
 
  private:
+  template <class Distance>
+  void lookAt(std::size_t body, std::span<const Vec3f> positions, double steepest,
+              const Distance& distanceAt);
+
   std::vector<std::uint32_t> firstPoint_;
   std::vector<Body> bodies_;
   std::size_t rootCount_;

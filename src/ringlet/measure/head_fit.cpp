@@ -49,7 +49,7 @@ Matrix diagonalize(Matrix& a) {
   return vectors;
 }
 
-constexpr int kRounds = 10;
+constexpr int kRounds = 20;
 constexpr double kLeastDistance = 1e-5;  // that a point's weight is by [m]
 
 // Sums of a pair of points over all: sx.y is the sum of rest x times now y.
@@ -124,7 +124,7 @@ HeadPose fitSharedMotion(std::span<const Vec3d> rest, std::span<const Vec3d> poi
     pose.position = mean + rotate(pose.rotation, middle - restMean);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vec3d there = pose.position + rotate(pose.rotation, rest[i] - middle);
-      weights[i] = 1 / std::max(length(points[i] - there), kLeastDistance);
+      weights[i] = std::pow(std::max(length(points[i] - there), kLeastDistance), -1.5);
     }
   }
   return pose;

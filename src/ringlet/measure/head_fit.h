@@ -14,10 +14,10 @@ namespace ringlet {
 /// roots as rest roots, all finite. Cost: one pass.
 Quatd fitHeadRotation(std::span<const Vec3d> restRoots, std::span<const Vec3d> roots);
 
-/// The rigid motion that as many of the points as can be share: the least sum of distances, and not of their
-/// squares, so that a part that bends hardly turns what the rest agrees on (a few rounds of least squares,
-/// each point weighed by one over its distance in the round before). The position is that of the mean of
-/// `rest`. As many points as at rest, all finite. Cost: ten passes.
+/// The rigid motion that as many of the points as can be share: the least sum of square roots of distances,
+/// so that a part that bends hardly turns what the rest agrees on (iteratively reweighted least squares, from
+/// equal weights). The position is that of the mean of `rest`. As many points as at rest, all finite. Cost:
+/// twenty passes.
 HeadPose fitSharedMotion(std::span<const Vec3d> rest, std::span<const Vec3d> points);
 
 }  // namespace ringlet

@@ -14,6 +14,8 @@ struct ComputedFrame {
   std::vector<Vec3f> positions;  // as SceneHair::framePositions returns them
   HeadPose head;
   std::vector<BodyPose> bodies;  // poses at the frame's end
+  std::vector<std::vector<Vec3d>>
+      points{};  // of the meshes of bodies that bend, in the world at the frame's end
 };
 
 }  // namespace ringlet

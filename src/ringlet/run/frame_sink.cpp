@@ -50,7 +50,8 @@ void FrameSink::archive(Archive& archive) {
 Status FrameSink::take(ComputedFrame frame) {
   if (readers_.bodies) {
     Stopwatch watch(watching_);
-    readers_.bodies->look(frame.positions, frame.head, frame.bodies);
+    const std::vector<std::span<const Vec3d>> points(frame.points.begin(), frame.points.end());
+    readers_.bodies->look(frame.positions, frame.head, frame.bodies, points);
   }
   std::swap(last_, frame);
   isShown_ = false;

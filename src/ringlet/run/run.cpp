@@ -276,7 +276,7 @@ Status Run::Work::step(const SceneFrame& frame) {
   }
   if (Status taken = takeUnderWay(); !taken) return taken;
   const auto bodies = frame.bodiesAtEnd();
-  underWay_ = {frame_ + 1, {}, frame.heads.back(), {bodies.begin(), bodies.end()}};
+  underWay_ = {frame_ + 1, {}, frame.heads.back(), {bodies.begin(), bodies.end()}, frame.pointsAtEnd()};
   return {};
 }
 

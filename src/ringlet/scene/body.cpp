@@ -48,6 +48,35 @@ Status checkBody(const Body& body) {
   return body.mesh ? checkBending(*body.mesh, owner) : Status{};
 }
 
+std::vector<std::size_t> bendingPointCounts(std::span<const Body> bodies) {
+  std::vector<std::size_t> counts;
+  for (const Body& body : bodies)
+    if (body.bends()) counts.push_back(body.mesh->points.size());
+  return counts;
+}
+
+Status checkBodyPoints(std::span<const std::size_t> pointCounts, BodyPoints points) {
+  if (points.empty()) return {};
+  if (points.size() != pointCounts.size())
+    return Error{fmt::format("a frame has points of {} bodies, and {} of the bodies bend", points.size(),
+                             pointCounts.size())};
+  const std::size_t samples = points[0].size() / pointCounts[0];
+  for (std::size_t b = 0; b < points.size(); ++b) {
+    const std::size_t wanted = std::max<std::size_t>(samples, 1) * pointCounts[b];
+    if (points[b].size() != wanted)
+      return Error{fmt::format(
+          "a frame has {} points of bending body {}; expected {}, {} samples of a mesh of {} points",
+          points[b].size(), b, wanted, std::max<std::size_t>(samples, 1), pointCounts[b])};
+    for (std::size_t i = 0; i < points[b].size(); ++i) {
+      if (contains(kPosePlace, points[b][i])) continue;
+      return Error{
+          fmt::format("point {} in sample {} of bending body {} is not finite, or more than 1e9 m away",
+                      i % pointCounts[b], i / pointCounts[b], b)};
+    }
+  }
+  return {};
+}
+
 BodyPose Body::poseAt(double t, const HeadPose& head) const {
   const HeadPose carrier = motion ? motion->poseAt(t) : head;
   return {carrier.position + rotate(carrier.rotation, place.position),

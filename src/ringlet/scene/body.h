@@ -1,6 +1,7 @@
 // Body: a solid that hair stays out of. A particle inside is pushed out.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <span>
@@ -67,6 +68,12 @@ Status checkBody(const Body& body);
 /// times spread evenly over a frame, the last at its end; one time after the other, of all bodies as many. In
 /// between points move straight, seen from what carries the body.
 using BodyPoints = std::span<const std::span<const Vec3d>>;
+
+/// The number of points of each mesh that bends.
+std::vector<std::size_t> bendingPointCounts(std::span<const Body> bodies);
+/// Fails where `points` is not empty and has not for each of these meshes as many samples of all its points,
+/// at least one, none of them further away than 1e9 m along an axis.
+Status checkBodyPoints(std::span<const std::size_t> pointCounts, BodyPoints points);
 
 inline constexpr const char* kBodiesNeedJacobi = "bodies need the integrator jacobi; this run has another";
 

@@ -73,6 +73,12 @@ struct SceneFrame {
   std::span<const BodyPose> bodiesAtEnd() const {
     return std::span(bodies).last(bodies.size() / heads.size());
   }
+  std::vector<std::vector<Vec3d>> pointsAtEnd() const {
+    std::vector<std::vector<Vec3d>> ends;
+    for (const auto& each : points)
+      ends.emplace_back(each.end() - static_cast<std::ptrdiff_t>(each.size() / heads.size()), each.end());
+    return ends;
+  }
   std::span<const BodyPose> rootsAtEnd() const { return std::span(roots).last(roots.size() / heads.size()); }
 };
 

@@ -4,16 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 #include <utility>
 
 #include "ringlet/base/bounds.h"
-#include "ringlet/bodies/close_mesh.h"
+#include "ringlet/bodies/make_bending_mesh.h"
 #include "ringlet/bodies/mesh_file.h"
-#include "ringlet/bodies/mesh_grid.h"
 #include "ringlet/groom/root_ends.h"
 #include "ringlet/measure/head_fit.h"
 #include "ringlet/motion/mesh_motion_file.h"
@@ -21,10 +19,7 @@
 namespace ringlet {
 namespace {
 
-constexpr int kPadding = 3;           // cells about the part of the mesh that has a grid
-constexpr int kFirstShapeCells = 32;  // of the grid of its first shape
 constexpr std::size_t kPointsToFit = 2000;
-constexpr double kFarther = 1.25;  // than in the frames that were looked at
 
 Result<std::shared_ptr<const MeshMotion>> meshOfBody(const SceneBody& scene, const SceneFile& file,
                                                      bool isHeads, const LoadedScene& loaded) {
@@ -118,23 +113,6 @@ Motion sharedMotion(const MovingBody& moving, double preRollSeconds, const Loade
   return motion;
 }
 
-// A grid of cubes about a box.
-void setGrid(const Bounds& box, int cells, BendingMesh& mesh) {
-  const Vec3d size = box.high - box.low;
-  mesh.cell = std::max({size.x, size.y, size.z}) / cells;
-  const std::array<double, 3> sides{size.x, size.y, size.z};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    mesh.counts[axis] = static_cast<std::uint32_t>(std::ceil(sides[axis] / mesh.cell - 1e-9)) + 2 * kPadding;
-  const Vec3d counts{double(mesh.counts[0]), double(mesh.counts[1]), double(mesh.counts[2])};
-  mesh.origin = box.middle() - counts * (mesh.cell / 2);
-}
-
-double volumeOf(const std::vector<Vec3d>& points, const ClosedMesh& surface) {
-  double six = 0;
-  for (const auto& [a, b, c] : surface.triangles) six += dot(points[a], cross(points[b], points[c]));
-  return six / 6;
-}
-
 }  // namespace
 
 Status loadBendingBody(const SceneFile& file, std::size_t index, LoadedScene& loaded) {
@@ -155,22 +133,6 @@ Status loadBendingBody(const SceneFile& file, std::size_t index, LoadedScene& lo
 
   const auto carrierAt = [&](double t) { return body.poseAt(t, loaded.motion.poseAt(t)); };
   TriangleMesh first{moving.pointsSeenAt(0, body, loaded.motion), (*read)->triangles()};
-  if (Status checked = checkMesh(first); !checked)
-    return Error{fmt::format("the body {}: {}", body.name, checked.error().message)};
-  BendingMesh mesh;
-  mesh.surface = closed(first);
-  if (volumeOf(mesh.surface.pointsOf(first.points), mesh.surface) < 0) {
-    for (auto& triangle : first.triangles) std::swap(triangle[1], triangle[2]);
-    mesh.surface = closed(first);
-    loaded.warnings.push_back(fmt::format(
-        "the body {}: the mesh is inside out, its triangles clockwise seen from outside; turned", body.name));
-  }
-  if (!mesh.surface.rims.empty())
-    loaded.warnings.push_back(
-        fmt::format("the body {}: {} of its mesh's holes {} closed by caps that move with it", body.name,
-                    mesh.surface.rims.size(), mesh.surface.rims.size() == 1 ? "is" : "are"));
-  mesh.points = first.points;
-
   // Where the mesh is over the run, a look a frame.
   Bounds all = Bounds::none();
   const int looks = std::max(1, loaded.frameCount);
@@ -180,19 +142,16 @@ Status loadBendingBody(const SceneFile& file, std::size_t index, LoadedScene& lo
   }
   const Bounds box =
       isAll ? all : common(all, reachOfHair(loaded.groom, loaded.motion.poseAt(0), carrierAt(0)));
-  if (!(box.low.x < box.high.x && box.low.y < box.high.y && box.low.z < box.high.z))
+  if (!box.hasRoom())
     return Error{
         fmt::format("the body {}: the longest strand does not reach its mesh; is its unit or place right? "
                     "region = \"all\" gives all of it a grid",
                     body.name)};
-  setGrid(box, scene.cells, mesh);
-  const Vec3d middle = box.middle();
-  mesh.reach = kFarther * std::max({all.high.x - middle.x, middle.x - all.low.x, all.high.y - middle.y,
-                                    middle.y - all.low.y, all.high.z - middle.z, middle.z - all.low.z});
-  auto grid = makeDistanceGrid(first, {.cells = std::min(scene.cells, kFirstShapeCells)});
-  if (!grid) return Error{fmt::format("the body {}: {}", body.name, grid.error().message)};
-  body.grid = std::make_shared<const DistanceGrid>(std::move(grid->grid));
-  body.mesh = std::make_shared<const BendingMesh>(std::move(mesh));
+  std::vector<std::string> warnings;
+  if (Status made = makeBendingMesh(std::move(first), {box, all, scene.cells}, body, warnings); !made)
+    return Error{fmt::format("the body {}: {}", body.name, made.error().message)};
+  for (const std::string& warning : warnings)
+    loaded.warnings.push_back(fmt::format("the body {}: {}", body.name, warning));
   loaded.moving.push_back(std::move(moving));
   return {};
 }
