@@ -117,8 +117,7 @@ BodyObject meshBody(MeshGiven given, const Stand& stand, const py::kwargs& numbe
   Body body = bodyOf(formOf(BodyShape::grid), stand, {}, numbers);
   if (given.deforms) return bendingBody(std::move(given), std::move(body));
   if (given.grid) throw py::value_error("grid is for a mesh with deforms=True");
-  const auto& [mesh, cells, deforms, grid] = given;
-  MeshGrid made = withoutGil([&] { return valueOf(makeDistanceGrid(mesh, {.cells = cells})); });
+  MeshGrid made = withoutGil([&] { return valueOf(makeDistanceGrid(given.mesh, {.cells = given.cells})); });
   body.grid = std::make_shared<const DistanceGrid>(std::move(made.grid));
   return checked(std::move(body), std::move(made.warnings));
 }
