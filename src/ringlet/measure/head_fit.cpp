@@ -124,7 +124,8 @@ HeadPose fitSharedMotion(std::span<const Vec3d> rest, std::span<const Vec3d> poi
     pose.position = mean + rotate(pose.rotation, middle - restMean);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vec3d there = pose.position + rotate(pose.rotation, rest[i] - middle);
-      weights[i] = std::pow(std::max(length(points[i] - there), kLeastDistance), -1.5);
+      const double distance = std::max(length(points[i] - there), kLeastDistance);
+      weights[i] = 1 / (distance * std::sqrt(distance));
     }
   }
   return pose;
