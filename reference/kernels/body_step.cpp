@@ -70,7 +70,9 @@ bool findPushes(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>&
                 FieldView<Real> positions, FieldView<Real> free, std::vector<BodyPush<Real>>& pushes) {
   pushes.assign(rest.particleCount(), {});
   bool any = false;
+  std::vector<bool> touches;  // particles that this body pushes or would
   for (const BodyStep<Real>& step : bodies) {
+    touches.assign(rest.particleCount(), false);
     const Real T = step.seconds, friction = static_cast<Real>(step.body->friction);
     const auto start = [&](std::size_t i) { return step.atStart(positions[i]); };
     const auto end = [&](std::size_t i) -> Vector3<Real> {
@@ -81,6 +83,7 @@ bool findPushes(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>&
          i < rest.particleCount(); ++i) {
       const Touch<Real> touch = traceParticle<Real>(step.shapeNow, start(i), end(i));
       if (!touch.found) continue;
+      touches[i] = true;
       const bool isDeep = touch.surface.distance < Real(-kDeep);
       Vector3<Real> n = step.outward(touch.surface.normal);
       if (isDeep) n = wayOutOfDepth(n, strandDirection<Real>(positions, i));
@@ -92,6 +95,8 @@ bool findPushes(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>&
       any = true;
     }
     for (std::size_t i = 0; i + 1 < rest.particleCount(); ++i) {
+      // Its ends are asked for what it needs; asked again through the edge, they would be thrown off.
+      if (touches[i] && touches[i + 1]) continue;
       const Touch<Real> touch = traceEdge<Real>(step.shapeNow, start(i), end(i), start(i + 1), end(i + 1));
       if (!touch.found) continue;
       const Vector3<Real> n = step.outward(touch.surface.normal);

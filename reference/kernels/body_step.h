@@ -76,8 +76,8 @@ struct BodyPush {
   }
 };
 
-/// Of all particles, from where they are and the velocities they would have without bodies. Whether there is
-/// any.
+/// Of all particles, and of the edges of which not both ends touch, from where they are and the velocities
+/// they would have without bodies. Whether there is any.
 template <class Real>
 bool findPushes(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>& bodies,
                 FieldView<Real> positions, FieldView<Real> free, std::vector<BodyPush<Real>>& pushes);

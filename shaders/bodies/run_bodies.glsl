@@ -155,8 +155,9 @@ struct NextParticle {  // first particle of the next lane
 };
 
 // Adds a body's pushes on the edge from particle k to l, at the end that touches first or between the ends;
-// or, if k = l, on particle k.
-void askOf(BodyStep body, int k, int l, NextParticle next, vec3 edgeBefore, inout uint touched, inout uint asked) {
+// or, if k = l, on particle k, but for the next lane's first, which that lane asks. Returns whether it touches.
+bool askOf(BodyStep body, int k, int l, NextParticle next, vec3 edgeBefore, inout uint touched,
+           inout uint asked) {
   float T = stepSeconds();
   bool isOne = k == l;
   vec3 a = RINGLET_PICK(p, next.p, k);
@@ -178,7 +179,8 @@ void askOf(BodyStep body, int k, int l, NextParticle next, vec3 edgeBefore, inou
   vec3 u = surfaceVelocityAt(body, from, bendingAtStart(body, placeAtStart(body, from)), T);
   float least = dot(n, u) + leastParting(touch, T);
   float deficit = least - dot(n, shares.x * va + shares.y * vc);
-  if (!(isOne ? !touch.passes : touch.found) || !(deficit > 0.0)) return;
+  bool touches = isOne ? !touch.passes : touch.found;
+  if (!touches || !(deficit > 0.0)) return touches;
   vec2 parting = shares * (deficit / dot(shares, shares));
   int end = 0;
   do {
@@ -186,9 +188,11 @@ void askOf(BodyStep body, int k, int l, NextParticle next, vec3 edgeBefore, inou
     float share = end == 0 ? shares.x : shares.y;
     float weight = share * (isDeep ? kDeepShare : 1.0) * bodyWeight(massAt(m, next.mass), deficit);
     float target = isOne ? least : dot(n, end == 0 ? va : vc) + (end == 0 ? parting.x : parting.y);
-    push(m, isPinnedAt(m) || share < kLeastShare ? 0.0 : weight, n, target, u, body.rest.friction);
+    bool isOthers = isOne && m == RUN;
+    push(m, isPinnedAt(m) || isOthers || share < kLeastShare ? 0.0 : weight, n, target, u, body.rest.friction);
   } while (++end < (isOne ? 1 : 2));
   asked = 1;
+  return true;
 }
 
 // Finds the pushes of all bodies, from positions and v, the velocities without bodies. Returns whether there
@@ -215,11 +219,13 @@ bool findPushes(uint step) {
     float roomBefore = 0.0;  // distance left to the body after particle k - 1 has moved
     bool isBuried = lane == 0 && !kFalls;  // fallen hair has no root that may be in a body
     vec3 placeBefore = vec3(0);
+    uint touchesBefore = 0;  // whether the last particle of the word before touches
     uint part = 0;
     do {
       int before = int(part) * kPart - 1;  // the edge of bit 0 ends at the particle of bit 0
       uint particleBits = 0;
       uint edgeBits = 0;
+      uint touching = 0;  // the particles that touch
       [[dont_unroll]] do {
         [[unroll]] for (int j = 0; j < kPart; ++j) {
           int k = int(part) * kPart + j;
@@ -231,7 +237,8 @@ bool findPushes(uint step) {
           float distance = surfaceAt(body.rest, body.before.field, place, bending).distance;
           float left = distance - 1.001 * way - 2.0 * kTouchDistance - bendingRoom(body, bending);
           isBuried = isBuried && k < kMostBuried && distance < -kOutside;
-          if (k < RUN && isFree(k) && left <= 0.0 && !isBuried) particleBits |= 1u << (k - before - 1);
+          bool mayTouch = k < RUN ? isFree(k) : k == RUN && isEdge(RUN - 1) && !isPinnedAt(RUN);
+          if (mayTouch && left <= 0.0 && !isBuried) particleBits |= 1u << (k - before - 1);
           if (k > 0 && k <= RUN && isEdge(k - 1) && left + roomBefore <= length(position - placeBefore))
             edgeBits |= 1u << (k - before - 1);
           roomBefore = left;
@@ -240,11 +247,15 @@ bool findPushes(uint step) {
       } while (++part < kLookParts && !fillsWord(part));
       if ((particleBits | edgeBits) != 0) do {
         bool isOne = particleBits != 0;
-        int k = before + findLSB(isOne ? particleBits : edgeBits) + (isOne ? 1 : 0);
+        int bit = findLSB(isOne ? particleBits : edgeBits);
+        int k = before + bit + (isOne ? 1 : 0);
+        if (askOf(body, k, isOne ? k : k + 1, next, edgeBefore, touched, asked) && isOne) touching |= 1u << bit;
         edgeBits &= isOne ? ~0u : edgeBits - 1;
         particleBits &= particleBits - 1;
-        askOf(body, k, isOne ? k : k + 1, next, edgeBefore, touched, asked);
+        // An edge whose ends both touch asks nothing: it would ask them again, and throw them off.
+        if (particleBits == 0) edgeBits &= ~(touching & (touching << 1 | touchesBefore));
       } while ((particleBits | edgeBits) != 0);
+      touchesBefore = touching >> (kPart * kPartsOfWord - 1);
     } while (isAnotherWord(part));
     b = nextNear(room, reach, step, numbers.bodyCount, b + 1);
   } while (b < numbers.bodyCount);

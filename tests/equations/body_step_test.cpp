@@ -67,6 +67,31 @@ TEST(BodyStep, FallsOnABallAndStaysOutside) {
   }
 }
 
+// Strands that grow above a body of each shape and lie down on it, from its middle to all sides: after a
+// second and a half nothing moves any more.
+TEST(BodyStep, HairOnABodyComesToRest) {
+  for (const Body& shape : ringlet::test::sampleBodies()) {
+    Body body = shape;
+    body.friction = 0.3;
+    double top = 1;
+    for (int turn = 0; turn < 40; ++turn) top -= bodyDistance<double>(body, Vector(0, top, 0)).distance;
+    body.place.position = {0.013, -top - 0.003, 0.007};
+    for (int k = 0; k < 12; ++k) {
+      const double turn = 2 * kPi * k / 12;
+      auto simulation = among(straightStrand(Vec3d{0.09 * std::cos(turn), 0, 0.09 * std::sin(turn)}, 36),
+                              {body}, Material{});
+      simulateStill(simulation, 1.5);
+      double moved = 0;  // in a step
+      for (int step = 0; step < 24; ++step) {
+        const Field<double> before = simulation.positions();
+        simulateStill(simulation, simulation.settings().stepSeconds());
+        moved = std::max(moved, maxDistance(before, simulation.positions()));
+      }
+      EXPECT_LT(moved, 1e-5) << shape.name << ", strand " << k;
+    }
+  }
+}
+
 // tan 24 deg < 0.5 < tan 29 deg: on the one slope it stays, on the other it slides, until what pulls it
 // across is what friction holds: sin psi <= 0.5 / tan 29 deg.
 TEST(BodyStep, StaysOnASlopeUpToTheFrictionAngle) {
