@@ -43,6 +43,7 @@ items() {
   # Bodies: their kernel is the largest by far, and may take the driver's compiler long.
   item kernels_bodies 90 ringlet kernels --statistics --only ', bodies,' --json "$json"
   item body_walk_head 60 ringlet scene walk_head --strands 1000 --seconds 1 --json --quiet
+  item body_bust 60 ringlet scene bust --strands 1000 --seconds 1 --json --quiet
   item body_character 60 ringlet simulate "$here/examples/character.toml" --frames 96 "${nothing[@]}" -o "$work/run-character"
   # What the compiler makes of the others.
   for part in 'hair alone' contacts 'a volume' contact_ volume_; do

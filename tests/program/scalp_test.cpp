@@ -257,7 +257,7 @@ TEST(ScalpProgram, SaysWhatIsWrong) {
     const std::string error = refused(folder);
     EXPECT_NE(error.find(part), std::string::npos) << error;
   };
-  says("farthest = 0.1\n", "found no scalp.file");
+  says("farthest = 0.1\n", "found neither scalp.file nor scalp.generate");
   says("file = 'none.glb'\n", "none.glb");
   says("file = 'strip.glb'\nmesh = 'skull'\n", "skull");
   says("file = 'strip.glb'\nunit = 0.01\n", "3 of 3 roots are further than 0.01 m");

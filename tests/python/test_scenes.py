@@ -109,7 +109,7 @@ def test_changes_are_those_of_a_sweep(device, program):
             ringlet.Scene.load(scene, changes={"material.preset": wrong})
 
 
-@pytest.mark.parametrize("name", ["hanging_curl", "two_curls", "walk_head"])
+@pytest.mark.parametrize("name", ["hanging_curl", "two_curls", "walk_head", "bust"])
 def test_a_built_in_scene_has_the_bits_of_the_program(device, program, name):
     small = {} if name == "two_curls" else {"strands": 4}
     told = program("scene", name, "--untuned", "--quiet", "--seconds", "0.2", "--particles", "16", "--contacts", "off",

@@ -166,7 +166,8 @@ TEST(BuiltinScene, HairThatComesTogetherDoesSoUnpruned) {
     EXPECT_FALSE(scene->settings.contacts.prunePairs) << name;
     EXPECT_EQ(scene->settings.contacts.on, sceneShowsContacts(name));
     EXPECT_FALSE(off->settings.contacts.on);
-    if (sceneShowsContacts(name) && name != "head" && name != "walk_head") {  // which are dense
+    const bool isDense = name == "head" || name == "walk_head" || name == "bust";
+    if (sceneShowsContacts(name) && !isDense) {
       EXPECT_TRUE(scene->settings.contacts.fillGaps) << name;
     }
   }
@@ -226,6 +227,7 @@ TEST(BuiltinScene, SaysWhatIsWrong) {
   expectError("head_shake", {.core = false, .integrator = Integrator::paper}, "leave the switch out");
   expectError("two_curls", {.strands = 3}, "has its two strands");
   expectError("two_curls", {.integrator = Integrator::paper}, "contacts need jacobi");
+  expectError("bust", {.contacts = false, .integrator = Integrator::paper}, "jacobi");
   expectError("bounce", {.bendStiffness = 1, .integrator = Integrator::paper}, "leave the stiffness out");
   expectError("bounce", {.bendStiffness = -1}, "-1");
   expectError("head_shake", {.preload = 1, .integrator = Integrator::paper}, "no preload");

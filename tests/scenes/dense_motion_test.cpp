@@ -9,6 +9,8 @@
 #include "ringlet/groom/generate.h"
 #include "ringlet/measure/contact_quality.h"
 #include "ringlet/measure/tip_ways.h"
+#include "ringlet/run/device_hair.h"
+#include "ringlet/scenes/frames/scene_frames.h"
 #include "tests/scenes/scene_runs.h"
 
 namespace ringlet::test::dense_motion_test {
@@ -81,16 +83,14 @@ class DenseMotion : public SceneTest {
 
   // A whole built-in scene, where hair meets as a volume.
   ContactReport runToEnd(const BuiltinScene& scene) {
-    auto simulation =
-        Simulation::create(device(), scene.groom, scene.material, scene.settings,
-                           {.head = scene.motion.poseAt(0),
-                            .oneStepEarlier = scene.motion.poseAt(-scene.settings.stepSeconds()),
-                            .bodies = scene.bodies,
-                            .rootShifts = scene.rootShifts});
+    const SceneFrames frames(scene);
+    auto simulation = makeSimulation({scene, frames}, {device()});
     EXPECT_TRUE(simulation) << simulation.error().message;
     const bool isVolume = simulation->contactReport()->volumeStrands > 0;
-    for (int frame = 0; isVolume && frame < scene.frameCount; ++frame)
-      EXPECT_TRUE(simulation->stepFrame(posesOfFrame(scene, frame)));
+    for (int number = 0; isVolume && number < scene.frameCount; ++number) {
+      const SceneFrame frame = *frames.at(number);
+      EXPECT_TRUE(simulation->stepFrame(frame.heads, frame.bodies, frame.roots, frame.bodyPoints()));
+    }
     return *simulation->contactReport();
   }
 

@@ -60,6 +60,7 @@ const std::string kEverythingElse =
     "[body.moves]\ninterpolation = 'linear'\n[[body.moves.key]]\ntime = 1\n[[body.moves.key]]\ntime = 2\n"
     "position = [1, 0, 0]\n"
     "[[body]]\nshape = 'mesh'\ngenerate = 'head'\n"
+    "[[body]]\nshape = 'mesh'\ngenerate = 'bust'\ndeforms = true\n"
     "[[camera]]\nname = 'close'\neye = [0, 1, 2]\ntarget = [0, 0.5, 0]\nup = [0, 0, 1]\nfield_of_view = 40\n"
     "bind = 'head'\n[[camera]]\nname = 'Shot'\nfile = 'shot.glb'\n"
     "[[field]]\nname = 'fan'\nkind = 'uniform'\nstrength = 3\nposition = [1, 2, 3]\nrotate_degrees = [0, 0, "
@@ -198,6 +199,8 @@ TEST(SceneFile, EverythingIsRead) {
   ASSERT_EQ(s.bodies[4].moves->keys.size(), 2u);
   EXPECT_EQ(s.bodies[4].moves->keys[1].position, (Vec3d{1, 0, 0}));
   EXPECT_EQ(s.bodies[5].generate, "head");
+  EXPECT_EQ(s.bodies[6].generate, "bust");
+  EXPECT_TRUE(s.bodies[6].deforms);
 
   EXPECT_EQ(s.output.folder, "files/out");
   EXPECT_EQ(s.output.width, 0.001);
@@ -411,6 +414,18 @@ TEST(SceneFile, MistakesAreNamedWithLineAndRemedy) {
        "line 3: found a mesh with neither a file nor a generator; expected one of file and generate"},
       {"[groom]\nfile = 'a.obj'\n[[body]]\nshape = 'mesh'\nfile = 'b.obj'\ngenerate = 'head'",
        "line 5: found a mesh with both a file and a generator; expected one of file and generate"},
+      {"[groom]\nfile = 'a.obj'\n[[body]]\nshape = 'mesh'\ngenerate = 'bust'",
+       "line 5: found the text 'bust' for body.generate; expected deforms = true beside it"},
+      {"[groom]\nfile = 'a.obj'\n[[body]]\nshape = 'mesh'\ngenerate = 'head'\ndeforms = true",
+       "line 5: found the text 'head' for body.generate; expected bust: no other generated mesh deforms"},
+      {"[groom]\nfile = 'a.obj'\n[[body]]\nshape = 'mesh'\ngenerate = 'bust'\ndeforms = true\nunit = 1",
+       "line 7: found body.unit of the generated bust; only a mesh of a file has it"},
+      {"[groom]\nfile = 'a.obj'\n[scalp]\nfarthest = 1",
+       "line 3: found neither scalp.file nor scalp.generate; expected one of the two"},
+      {"[groom]\nfile = 'a.obj'\n[scalp]\nfile = 'b.glb'\ngenerate = 'bust'",
+       "line 5: found scalp.file and scalp.generate; expected one of the two"},
+      {"[groom]\nfile = 'a.obj'\n[scalp]\ngenerate = 'bust'\nup = 'Z'",
+       "line 5: found scalp.up of the generated bust; only a mesh of a file has it"},
       {"[groom]\nfile = 'a.obj'\n[[body]]\nshape = 'sphere'\njoint = 'Neck'",
        "line 5: found body.joint, but the head follows no file; expected motion.file"},
       {"[groom]\nfile = 'a.obj'\n[motion]\nfile = 'a.bvh'\n[[body]]\nshape = 'sphere'\njoint = 'Neck'\nmoves "

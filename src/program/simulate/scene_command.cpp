@@ -61,11 +61,11 @@ constexpr const char* kSceneExample =
     "\n";
 constexpr const char* kSceneExitHelp =
     "\n"
-    "Scenes of hair that meets hair (two_curls, curtain, pile, fall, flip, head, walk_head) measure contacts "
-    "also where these are\n"
-    "off; others where they are on. Steps are then\n"
-    "measured one by one. Their radius is 5.5 mm and gaps are filled, but on head, which has the defaults\n"
-    "of simulate.\n"
+    "Scenes of hair that meets hair (two_curls, curtain, pile, fall, flip, head, walk_head, bust) measure "
+    "contacts also where these\n"
+    "are off; others where they are on. Steps are then\n"
+    "measured one by one. Their radius is 5.5 mm and gaps are filled, but on head, walk_head and bust, which have\n"
+    "the defaults of simulate.\n"
     "\n"
     "Exit status: as for simulate.";
 
@@ -328,7 +328,7 @@ void addHairOptions(CLI::App& command, TypedScene& typed) {
   command
       .add_option(
           "--strands", typed.scene.strands,
-          "Strands side by side (default 1; release 32; flip 100, head 1500); of each swatch (curtain 50, "
+          "Strands side by side (default 1; release 32; flip 100, bust 500, head 1500); of each swatch (curtain 50, "
           "pile and fall 12), in whole rows")
       ->check(wholeBetween(1, 100'000))
       ->type_name("N")

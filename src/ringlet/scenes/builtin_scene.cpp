@@ -14,6 +14,8 @@
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/material_presets.h"
 #include "ringlet/rest/rest_state.h"
+#include "ringlet/scenes/file/scene_file.h"
+#include "ringlet/scenes/load/bending_body.h"
 #include "ringlet/scenes/load/idle_dials.h"
 #include "ringlet/scenes/load/scene_parts.h"
 #include "ringlet/scenes/scene_grooms.h"
@@ -55,6 +57,9 @@ Material stretchyMaterial() {
   return material;
 }
 
+// What is below the hair: a head that it carries, or a bust that carries it.
+enum class Below { nothing, head, bust };
+
 struct Recipe {
   const char* name;
   const char* summary;
@@ -66,7 +71,7 @@ struct Recipe {
   bool showsContacts = false;
   Vec3d rootShift{};  // of the roots of the first half of the strands; the others go the other way [m]
   ContactSettings contacts{};  // but on, which is for the asking
-  bool hasHead = false;        // below the hair
+  Below below = Below::nothing;
 };
 
 // Hair that meets hair: nothing slips between particles.
@@ -172,7 +177,19 @@ const std::vector<Recipe>& recipes() {
        true,
        {},
        {},
-       true},
+       Below::head},
+      {"bust",
+       "Hair on the shoulders of a bust that nods and shrugs: it stays out of a body that bends.",
+       bustHair,
+       ringletMaterial,
+       {},
+       1,
+       4,
+       false,
+       true,
+       {},
+       {},
+       Below::bust},
   };
   return all;
 }
@@ -191,6 +208,16 @@ Result<Body> headBody() {
   return Body{.name = "head",
               .shape = BodyShape::grid,
               .grid = std::make_shared<const DistanceGrid>(std::move(made->grid))};
+}
+
+// The bust as a body, with the roots on it.
+Status addBust(BuiltinScene& scene) {
+  SceneFile file;
+  file.bodies.push_back(bustBody());
+  file.scalp.generate = "bust";
+  scene.bodies.push_back(bodyOf(file.bodies[0], 0, {0, 1, 0}));
+  if (Status loaded = loadBendingBody(file, 0, scene); !loaded) return loaded;
+  return loadScalp(file, scene);
 }
 
 Status checkOptions(std::string_view name, const SceneOptions& options) {
@@ -266,8 +293,9 @@ Result<BuiltinScene> makeScene(std::string_view name, const SceneOptions& option
   if (Status checked = checkDials(options.dials); !checked) return checked.error();
   if (auto warning = applyDials(options.dials, scene.material)) scene.warnings.push_back(std::move(*warning));
 
-  if (recipe->hasHead) {
-    if (options.integrator != Integrator::jacobi) return Error{kBodiesNeedJacobi};
+  if (recipe->below != Below::nothing && options.integrator != Integrator::jacobi)
+    return Error{kBodiesNeedJacobi};
+  if (recipe->below == Below::head) {
     auto head = headBody();
     if (!head) return head.error();
     scene.bodies.push_back(std::move(*head));
@@ -282,6 +310,9 @@ Result<BuiltinScene> makeScene(std::string_view name, const SceneOptions& option
   settings.contacts.on = options.contacts.value_or(recipe->showsContacts);
   settings.gravityPreload = options.preload.value_or(isPaper ? 0 : recipe->preload);
   if (Status checked = checkSettings(settings, scene.material); !checked) return checked.error();
+  if (recipe->below == Below::bust) {
+    if (Status added = addBust(scene); !added) return added.error();
+  }
   for (std::string& sentence :
        idleDials(options.dials, scene.material, scene.groom, settings, scene.motion, scene.seconds))
     scene.warnings.push_back(std::move(sentence));

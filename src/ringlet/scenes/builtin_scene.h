@@ -31,7 +31,8 @@ struct SceneOptions {
 };
 
 /// The head rests at t = 0 and eases into its motion. Y is up. In walk_head the body is the generated head
-/// (bodies/head_mesh.h). Warnings: effects that the options prevent.
+/// (bodies/head_mesh.h); in bust it is a mesh that bends, and has the roots (motion/bust_motion.h). Warnings:
+/// effects that the options prevent.
 struct BuiltinScene : LoadedScene {
   std::string name{}, summary{};
   double seconds = 0;          // frameCount is whole frames of it, at least one
@@ -40,7 +41,7 @@ struct BuiltinScene : LoadedScene {
 };
 
 /// hanging_curl, walk_cycle, head_shake, bounce, twist_jump, release, and those of hair that meets hair:
-/// two_curls, curtain, pile, fall, flip, head, walk_head.
+/// two_curls, curtain, pile, fall, flip, head, walk_head, bust.
 std::vector<std::string> sceneNames();
 
 /// What it shows, in a sentence; empty for an unknown name.

@@ -9,6 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "ringlet/bodies/bust_mesh.h"
+#include "ringlet/bodies/mesh_scalp.h"
+
 namespace ringlet {
 namespace {
 
@@ -143,6 +146,20 @@ Result<Groom> oneAboveTheOther(const SceneOptions& options) {
 
 Result<Groom> wholeHead(const SceneOptions& options) { return headOf(options, 1500); }
 Result<Groom> sparseHead(const SceneOptions& options) { return headOf(options, 100); }
+
+Result<Groom> bustHair(const SceneOptions& options) {
+  auto scalp = makeMeshScalp(makeBustMesh());
+  if (!scalp) return scalp.error();
+  HeadParameters head;
+  head.curl = sceneCurl(options);
+  head.curl.length = 0.4;
+  head.strandCount = options.strands.value_or(500);
+  head.lockCount = 150;
+  head.bendLength = 0.02;
+  head.cut = {.hairline = "natural", .parting = "middle", .layers = 0.2, .straightRoot = 0.3, .clump = 0.5};
+  head.scalp = std::move(*scalp);
+  return makeHead(head);
+}
 
 // A straight strand with one fold: two joints of nearly 180 degrees, a twentieth apart, that the smoothed
 // curve glides over.

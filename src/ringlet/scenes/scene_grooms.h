@@ -29,6 +29,8 @@ Result<Groom> oneAboveTheOther(const SceneOptions& options);
 /// The generated head, of 1,500 curls and of 100.
 Result<Groom> wholeHead(const SceneOptions& options);
 Result<Groom> sparseHead(const SceneOptions& options);
+/// Hair of 500 long curls in locks, on the head of the bust (bodies/bust_mesh.h), down to its shoulders.
+Result<Groom> bustHair(const SceneOptions& options);
 /// A straight strand with one nearly flat fold.
 Result<Groom> foldedStrand(const SceneOptions& options);
 

@@ -331,12 +331,19 @@ std::span<const SceneField<SceneRoots>> rootsFields() {
 std::span<const SceneField<SceneScalp>> scalpFields() {
   using S = SceneScalp;
   static const SceneField<S> all[] = {
-      {"file", "", "required",
+      {"file", "", "none",
        "File of the mesh whose nearest triangles the roots follow: a .gltf, .glb or .vrm file, which may be "
        "motion.file where the head follows a joint of it; a .usda, .usdc, .usd or .usdz file with samples of "
        "points; an .obj file with a cache; or a sequence of .obj files, as body.####.obj, where each # stands "
        "for a digit of the frame's number.",
        &S::file},
+      {"generate",
+       "",
+       "none",
+       "Generated mesh in place of a file: a bust that nods and shrugs.",
+       &S::generate,
+       {},
+       "bust"},
       {"cache", "", "none",
        "Point cache of an .obj file, .pc2 or .mdd: its points over time, in the same order, in the world.",
        &S::cache},
@@ -445,9 +452,10 @@ std::span<const SceneField<SceneBody>> bodyFields() {
         {.key = "generate",
          .unit = "",
          .standard = "none",
-         .effect = "Generated mesh in place of a file: the head of generated grooms.",
+         .effect = "Generated mesh in place of a file: the head of generated grooms, or a bust that nods and "
+                   "shrugs, with deforms.",
          .member = &B::generate,
-         .choices = "head",
+         .choices = "head, bust",
          .onlyWith = "mesh"},
         {.key = "unit",
          .unit = "m",

@@ -124,8 +124,14 @@ class SceneReader {
     if (const toml::table* table = tableOf(file, "", "motion")) readHeadMotion(*table, scene.motion);
     if (const toml::table* table = tableOf(file, "", "scalp")) {
       readFields(*table, "scalp", scalpFields(), scene.scalp);
-      if (!table->get("file"))
-        missing_.add(lineOf(*table), "found no scalp.file; expected the file of a mesh");
+      const toml::node *path = table->get("file"), *generator = table->get("generate");
+      if (!path && !generator)
+        missing_.add(lineOf(*table), "found neither scalp.file nor scalp.generate; expected one of the two");
+      if (path && generator)
+        problems_.add(std::max(lineOf(*path), lineOf(*generator)),
+                      "found scalp.file and scalp.generate; expected one of the two");
+      for (const char* key : {"cache", "mesh", "animation", "unit", "up", "cache_fps"})
+        refuseOfGenerated(*table, "scalp", key, scene.scalp.generate);
     }
     readSimulation(file, scene.simulation);
     if (const toml::table* table = tableOf(file, "", "contacts")) {
@@ -638,12 +644,27 @@ class SceneReader {
     for (const char* key : {"cache", "cache_fps", "animation", "start", "region"})
       if (const toml::node* node = table.get(key); node && !body.deforms)
         problems_.add(lineOf(*node), fmt::format("found body.{}; expected deforms = true beside it", key));
-    for (const char* key : {"generate", "scale", "position", "rotate_degrees", "bind", "bind_frame"})
+    if (const toml::node* node = table.get("generate"); node && body.deforms != (body.generate == "bust"))
+      problems_.addFound(*node, "body.generate",
+                         body.deforms ? "bust: no other generated mesh deforms" : "deforms = true beside it");
+    if (body.deforms)
+      for (const char* key : {"mesh", "unit", "cache", "cache_fps", "animation"})
+        refuseOfGenerated(table, "body", key, body.generate);
+    for (const char* key : {"scale", "position", "rotate_degrees", "bind", "bind_frame"})
       if (const toml::node* node = table.get(key); node && body.deforms)
         problems_.add(lineOf(*node),
                       fmt::format("found body.{} of a mesh that deforms, whose points are in the "
                                   "world as its file has them; expected none",
                                   key));
+  }
+
+  // What says how a file is read.
+  void refuseOfGenerated(const toml::table& table, const std::string& name, const char* key,
+                         const std::string& generator) {
+    if (const toml::node* node = table.get(key); node && !generator.empty())
+      problems_.add(
+          lineOf(*node),
+          fmt::format("found {}.{} of the generated {}; only a mesh of a file has it", name, key, generator));
   }
 
   // "head", "still", or a motion of its own; or a joint.

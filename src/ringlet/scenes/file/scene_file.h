@@ -107,15 +107,18 @@ struct SceneMotion {
   SceneRoots roots{};
 };
 
-/// The mesh that roots follow (motion/head_scalp.h); none where there is no file.
+/// The mesh that roots follow (motion/head_scalp.h); none where there is neither a file nor a generator.
 struct SceneScalp {
   std::filesystem::path file{}, cache{};  // as for motion/mesh_motion_file.h
+  std::string generate{};                 // bust, in place of a file
   std::string mesh{};                     // empty: the only one
   std::string animation{};                // empty: the head's where it is the same file, else the first
   std::optional<double> metresPerUnit{}, framesPerSecond{};
   std::string up{};  // axis of the file, a name of motion/file_axis.h; empty: as the kind of file has it
   double farthest = 0.01;  // [m]
   double start = 0;        // when its first key is [s]
+
+  bool isThere() const { return !file.empty() || !generate.empty(); }
 };
 
 struct SceneSimulation {
@@ -140,7 +143,7 @@ struct SceneBody : Body {
   // Of a mesh.
   std::filesystem::path file;
   std::string mesh{};                   // of several in the file; empty: the only one
-  std::string generate;                 // head, in place of a file
+  std::string generate;                 // head, or bust, which deforms, in place of a file
   std::optional<double> metresPerUnit;  // unset: the groom's
   int cells = 64;                       // of its distance grid, along its longest side
   double scale = 1;

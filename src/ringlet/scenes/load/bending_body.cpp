@@ -14,6 +14,7 @@
 #include "ringlet/bodies/mesh_file.h"
 #include "ringlet/groom/root_ends.h"
 #include "ringlet/measure/head_fit.h"
+#include "ringlet/motion/bust_motion.h"
 #include "ringlet/motion/mesh_motion_file.h"
 
 namespace ringlet {
@@ -23,6 +24,7 @@ constexpr std::size_t kPointsToFit = 2000;
 
 Result<std::shared_ptr<const MeshMotion>> meshOfBody(const SceneBody& scene, const SceneFile& file,
                                                      bool isHeads, const LoadedScene& loaded) {
+  if (!scene.generate.empty()) return makeBustMotion();
   MeshMotionChoice choice{.path = scene.file,
                           .cache = scene.cache,
                           .mesh = scene.mesh,

@@ -11,7 +11,7 @@
 
 namespace ringlet {
 
-/// Reads the mesh of `scene`, which is body `index` of `file` and bends, and makes loaded.bodies[index]
+/// Reads or makes the mesh of body `index` of `file`, which bends, and makes loaded.bodies[index]
 /// follow it. What of `loaded` it needs is there: groom, motion, bodies, settings. Errors: those of
 /// readMeshMotion; a mesh that hair does not come near. Warnings go to loaded.warnings.
 Status loadBendingBody(const SceneFile& file, std::size_t index, LoadedScene& loaded);

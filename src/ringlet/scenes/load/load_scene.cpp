@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "ringlet/base/quoted.h"
+#include "ringlet/bodies/bust_mesh.h"
 #include "ringlet/bodies/head_mesh.h"
 #include "ringlet/bodies/mesh_file.h"
 #include "ringlet/bodies/mesh_grid.h"
@@ -21,6 +22,7 @@
 #include "ringlet/measure/joint_check.h"
 #include "ringlet/measure/material_suggestion.h"
 #include "ringlet/measure/placement_check.h"
+#include "ringlet/motion/bust_motion.h"
 #include "ringlet/motion/mesh_motion_file.h"
 #include "ringlet/motion/motion_file.h"
 #include "ringlet/motion/usd_mesh.h"
@@ -63,6 +65,8 @@ Result<TriangleMesh> meshOf(const SceneBody& scene, const SceneGroom& groom, dou
     HeadParameters head;
     head.scalpRadius = groom.scalpRadius;
     mesh = makeHeadMesh(head);
+  } else if (scene.generate == "bust") {
+    mesh = makeBustMesh();
   } else {
     const bool isPlaced =
         isUsdFile(scene.file) || motionFileKind(scene.file.string()) == MotionFileKind::gltf;
@@ -153,14 +157,12 @@ Result<Motion> loadedMotion(const SceneFile& scene, const Settings& settings,
   return motion;
 }
 
-// The scalp with the groom's roots bound to it. Where its file is the head's the two stand in one world, and
-// what the scalp leaves open is the head's.
-Result<HeadScalp> loadedScalp(const SceneFile& file, LoadedScene& loaded) {
+// Where its file is the head's the two stand in one world, and what the scalp leaves open is the head's.
+Result<std::shared_ptr<const MeshMotion>> meshOfScalp(const SceneFile& file, bool isHeads,
+                                                      const LoadedScene& loaded) {
   const SceneScalp& scene = file.scalp;
   const SceneMotion& head = file.motion;
-  const std::string name = scene.file.string();
-  std::error_code code;  // files that are not there are no error of this
-  const bool isHeads = !head.file.empty() && std::filesystem::equivalent(head.file, scene.file, code);
+  if (!scene.generate.empty()) return makeBustMotion();
   MeshMotionChoice choice{.path = scene.file,
                           .cache = scene.cache,
                           .mesh = scene.mesh,
@@ -172,7 +174,18 @@ Result<HeadScalp> loadedScalp(const SceneFile& file, LoadedScene& loaded) {
   if (isHeads && !choice.metresPerUnit) choice.metresPerUnit = head.metresPerUnit;
   if (isHeads && !choice.up) choice.up = fileAxisNamed(head.up);
   if (!choice.metresPerUnit && isObjMesh(scene.file)) choice.metresPerUnit = loaded.groom.metresPerUnit;
-  const auto read = readMeshMotion(choice, file.groom.up == "Z");
+  return readMeshMotion(choice, file.groom.up == "Z");
+}
+
+}  // namespace
+
+Status loadScalp(const SceneFile& file, LoadedScene& loaded) {
+  const SceneScalp& scene = file.scalp;
+  const std::string name = scene.generate.empty() ? scene.file.string() : scene.generate;
+  std::error_code code;  // files that are not there are no error of this
+  const bool isHeads =
+      !file.motion.file.empty() && std::filesystem::equivalent(file.motion.file, scene.file, code);
+  const auto read = meshOfScalp(file, isHeads, loaded);
   if (!read) return Error{fmt::format("the scalp: {}", read.error().message), read.error().fault};
   const std::shared_ptr<const MeshMotion>& mesh = *read;
   for (const std::string& warning : mesh->warnings())
@@ -189,14 +202,17 @@ Result<HeadScalp> loadedScalp(const SceneFile& file, LoadedScene& loaded) {
                              ends ? fmt::format("; {}", *ends) : std::string())};
   }
   if (ends) loaded.warnings.push_back(*ends);
-  return scalp;
+  loaded.scalp = std::move(*scalp);
+  return {};
 }
+
+namespace {
 
 // Of a file's groom: whether it runs from tip to root, or lies on its side. `statesUp`: the file does.
 void checkGroomFile(const SceneFile& scene, bool statesUp, LoadedScene& loaded) {
   if (!scene.groom.generate.empty()) return;
   auto ends = checkRootEnds(loaded.groom, loaded.bodies, loaded.motion.poseAt(0));
-  if (!ends && scene.scalp.file.empty()) ends = doubtOfRootEnds(loaded.groom);
+  if (!ends && !scene.scalp.isThere()) ends = doubtOfRootEnds(loaded.groom);
   if (ends) loaded.warnings.push_back(std::move(*ends));
   const bool isTurned = scene.groom.rotateDegrees != Vec3d{};
   if (statesUp || isTurned) return;
@@ -234,7 +250,7 @@ Status bindAndCheck(const SceneFile& scene, LoadedScene& loaded) {
     if (doubt) loaded.warnings.push_back(std::move(*doubt));
   };
   // A groom that is turned was placed by hand, and a scalp says itself where roots are.
-  const bool isPlaced = scene.groom.rotateDegrees != Vec3d{} || !scene.scalp.file.empty();
+  const bool isPlaced = scene.groom.rotateDegrees != Vec3d{} || scene.scalp.isThere();
   if (followsJoint && !bind.groom && !isPlaced)
     warn(checkJointAxes(loaded.motion, upOf(scene.groom), scene.motion.joint));
   bindInWorld(bind, loaded.motion, loaded.groom, loaded.bodies);
@@ -484,10 +500,8 @@ Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known, 
   }
   if (Status started = takeStart(scene, loaded); !started) return started.error();
   loaded.rootShifts = rootShiftsOf(scene.motion.roots.shift, loaded.groom.strandCount());
-  if (!scene.scalp.file.empty()) {
-    auto scalp = loadedScalp(scene, loaded);
-    if (!scalp) return scalp.error();
-    loaded.scalp = std::move(*scalp);
+  if (scene.scalp.isThere()) {
+    if (Status bound = loadScalp(scene, loaded); !bound) return bound.error();
   }
   loaded.preRollSeconds = scene.motion.preRollSeconds;
   for (std::string& sentence : doubtsOfRigidBodies(loaded)) loaded.warnings.push_back(std::move(sentence));

@@ -176,6 +176,15 @@ Body bodyOf(const SceneBody& body, std::size_t index, Vec3d up) {
   return result;
 }
 
+SceneBody bustBody() {
+  SceneBody bust;
+  bust.name = "bust";
+  bust.shape = BodyShape::grid;
+  bust.generate = "bust";
+  bust.deforms = true;
+  return bust;
+}
+
 SceneFile sceneFileOf(const BuiltinScene& scene, const std::filesystem::path& groom) {
   SceneFile file;
   file.groom.file = groom;
@@ -201,13 +210,19 @@ SceneFile sceneFileOf(const BuiltinScene& scene, const std::filesystem::path& gr
   }
 
   for (const Body& body : scene.bodies) {
-    RINGLET_ASSERT(body.shape == BodyShape::grid, "built-in scenes have no bodies but the generated head");
+    if (body.bends()) {
+      file.bodies.push_back(bustBody());
+      continue;
+    }
+    RINGLET_ASSERT(body.shape == BodyShape::grid, "other bodies of built-in scenes are the generated head");
     SceneBody head;
     static_cast<Body&>(head) = body;
     head.grid = nullptr;
     head.generate = "head";
     file.bodies.push_back(std::move(head));
   }
+
+  if (scene.scalp) file.scalp.generate = "bust";
 
   const Settings& settings = scene.settings;
   SceneSimulation& simulation = file.simulation;

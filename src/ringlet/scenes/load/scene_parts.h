@@ -54,6 +54,9 @@ Settings settingsOf(const SceneFile& scene);
 /// Everything but what must be read: `grid` of a mesh, and the motion of a joint or a file.
 Body bodyOf(const SceneBody& body, std::size_t index, Vec3d up);
 
+/// The bust as a scene's body.
+SceneBody bustBody();
+
 /// A built-in scene with its groom in a file; what the file does not hold is the sentence it shows.
 SceneFile sceneFileOf(const BuiltinScene& scene, const std::filesystem::path& groom);
 
