@@ -19,12 +19,11 @@ namespace {
 
 constexpr double kDeepestAllowed = 0.001;  // [m]
 
-Result<BuiltinScene> bust() { return makeScene("bust", {.strands = 60, .contacts = false}); }
+Result<BuiltinScene> bust() { return makeScene("bust", {.strands = 40, .contacts = false}); }
 
-// The body's mesh in the world, of points as its carrier sees them.
-TriangleMesh meshAt(const BuiltinScene& scene, std::vector<Vec3d> points, const BodyPose& carrier) {
-  for (Vec3d& p : points) p = carrier.position + rotate(carrier.rotation, p);
-  return {std::move(points), scene.moving[0].mesh->triangles()};
+// The body's triangles as a frame ends.
+TriangleTree treeOf(const BuiltinScene& scene, const SceneFrame& frame) {
+  return TriangleTree({frame.pointsAtEnd()[0], scene.moving[0].mesh->triangles()});
 }
 
 TEST(BustMeshScene, RootsStayOnTheBody) {
@@ -41,7 +40,7 @@ TEST(BustMeshScene, RootsStayOnTheBody) {
   for (int number = 0; number < scene->frameCount; ++number) {
     const auto frame = frames.at(number);
     ASSERT_TRUE(frame);
-    const TriangleTree tree(meshAt(*scene, frame->pointsAtEnd()[0], frame->bodiesAtEnd()[0]));
+    const TriangleTree tree = treeOf(*scene, *frame);
     const auto roots = frame->rootsAtEnd();
     ASSERT_EQ(roots.size(), groom.strandCount());
     for (std::size_t s = 0; s < groom.strandCount(); ++s) {
@@ -76,7 +75,7 @@ TEST_F(BustScene, HairStaysOutAndLiesOnItsShoulders) {
     const auto ends = frame->pointsAtEnd();
     const std::vector<std::span<const Vec3d>> points(ends.begin(), ends.end());
     watch.look(positions, frame->heads.back(), frame->bodiesAtEnd(), points);
-    const TriangleTree tree(meshAt(*scene, ends[0], frame->bodiesAtEnd()[0]));
+    const TriangleTree tree = treeOf(*scene, *frame);
     leastOnShoulders =
         std::min(leastOnShoulders, static_cast<std::size_t>(std::ranges::count_if(positions, [&](Vec3f p) {
                    return std::abs(p.x) > 0.06f && p.y < -0.1f && tree.nearest(Vec3d(p)).distance < 0.01;

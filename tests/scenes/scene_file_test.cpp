@@ -173,7 +173,7 @@ TEST(SceneFile, EverythingIsRead) {
   EXPECT_EQ(s.air.eddySize, 0.1);
   EXPECT_EQ(s.air.seed, 12u);
 
-  ASSERT_EQ(s.bodies.size(), 6u);
+  ASSERT_EQ(s.bodies.size(), 7u);
   EXPECT_EQ(s.bodies[0].name, "skull");
   EXPECT_EQ(s.bodies[0].shape, BodyShape::sphere);
   EXPECT_EQ(s.bodies[0].radius, 0.09);

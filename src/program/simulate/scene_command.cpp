@@ -64,8 +64,8 @@ constexpr const char* kSceneExitHelp =
     "Scenes of hair that meets hair (two_curls, curtain, pile, fall, flip, head, walk_head, bust) measure "
     "contacts also where these\n"
     "are off; others where they are on. Steps are then\n"
-    "measured one by one. Their radius is 5.5 mm and gaps are filled, but on head, walk_head and bust, which have\n"
-    "the defaults of simulate.\n"
+    "measured one by one. Their radius is 5.5 mm and gaps are filled, but on head and walk_head, which have the\n"
+    "defaults of simulate; bust has gaps filled.\n"
     "\n"
     "Exit status: as for simulate.";
 

@@ -82,6 +82,13 @@ ContactSettings meeting() {
   return contacts;
 }
 
+// Curls that bend over a shoulder, where their particles stand further apart.
+ContactSettings bending() {
+  ContactSettings contacts;
+  contacts.fillGaps = true;
+  return contacts;
+}
+
 const std::vector<Recipe>& recipes() {
   const Vec3d side{1, 0, 0}, up{0, 1, 0}, forward{0, 0, 1};
   constexpr double forever = std::numeric_limits<double>::infinity();
@@ -188,7 +195,7 @@ const std::vector<Recipe>& recipes() {
        false,
        true,
        {},
-       {},
+       bending(),
        Below::bust},
   };
   return all;

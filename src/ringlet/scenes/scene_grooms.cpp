@@ -152,11 +152,13 @@ Result<Groom> bustHair(const SceneOptions& options) {
   if (!scalp) return scalp.error();
   HeadParameters head;
   head.curl = sceneCurl(options);
-  head.curl.length = 0.4;
+  head.curl.length = 0.33;
+  head.curl.radius = 0.008;
+  head.curl.turns = 5;
   head.strandCount = options.strands.value_or(500);
   head.lockCount = 150;
   head.bendLength = 0.02;
-  head.cut = {.hairline = "natural", .parting = "middle", .layers = 0.2, .straightRoot = 0.3, .clump = 0.5};
+  head.cut = {.hairline = "natural", .parting = "middle", .layers = 0.1, .straightRoot = 0.25, .clump = 0.5};
   head.scalp = std::move(*scalp);
   return makeHead(head);
 }
