@@ -75,10 +75,11 @@ TEST_F(BustScene, HairStaysOutAndLiesOnItsShoulders) {
     const auto ends = frame->pointsAtEnd();
     const std::vector<std::span<const Vec3d>> points(ends.begin(), ends.end());
     watch.look(positions, frame->heads.back(), frame->bodiesAtEnd(), points);
+    if (number < 48) continue;  // it falls, and the head nods
     const TriangleTree tree = treeOf(*scene, *frame);
     leastOnShoulders =
         std::min(leastOnShoulders, static_cast<std::size_t>(std::ranges::count_if(positions, [&](Vec3f p) {
-                   return std::abs(p.x) > 0.06f && p.y < -0.1f && tree.nearest(Vec3d(p)).distance < 0.01;
+                   return std::abs(p.x) > 0.06f && p.y < -0.1f && tree.nearest(Vec3d(p)).distance < 0.005;
                  })));
   }
   const BodyNumbers numbers = watch.numbers();
@@ -87,7 +88,7 @@ TEST_F(BustScene, HairStaysOutAndLiesOnItsShoulders) {
   EXPECT_LT(numbers.deepest, kDeepestAllowed)
       << "strand " << numbers.strand << " particle " << numbers.particle << " frame " << numbers.frame;
   EXPECT_EQ(numbers.inside, 0u);
-  EXPECT_GT(leastOnShoulders, 100u);
+  EXPECT_GT(leastOnShoulders, 20u);
   EXPECT_EQ(simulation->report()->nonfinite, 0u);
 }
 
