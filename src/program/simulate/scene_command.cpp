@@ -65,7 +65,7 @@ constexpr const char* kSceneExitHelp =
     "contacts also where these\n"
     "are off; others where they are on. Steps are then\n"
     "measured one by one. Their radius is 5.5 mm and gaps are filled, but on head and walk_head, which have the\n"
-    "defaults of simulate; bust has gaps filled.\n"
+    "defaults of simulate; that of bust is 7.5 mm.\n"
     "\n"
     "Exit status: as for simulate.";
 

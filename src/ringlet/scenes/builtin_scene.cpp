@@ -26,8 +26,9 @@ namespace {
 // Of contacts where curls meet: two of these cover the 10 mm and less between the particles of a curl of
 // eight a turn [m].
 constexpr double kMeetingRadius = 0.0055;
-constexpr int kPaperStepsPerFrame = 30;   // Iben et al. 2012, section 5
-constexpr double kLongestScene = 36'000;  // [s]
+constexpr double kBendingRadius = 0.0075;  // where they bend sharply particles are 14.5 mm apart
+constexpr int kPaperStepsPerFrame = 30;    // Iben et al. 2012, section 5
+constexpr double kLongestScene = 36'000;   // [s]
 constexpr int kMostStrands = 100'000;
 
 Material ringletMaterial() { return materialPreset("ringlet").value(); }
@@ -82,10 +83,10 @@ ContactSettings meeting() {
   return contacts;
 }
 
-// Curls that bend over a shoulder, where their particles stand further apart.
+// Curls that bend over a shoulder.
 ContactSettings bending() {
-  ContactSettings contacts;
-  contacts.fillGaps = true;
+  ContactSettings contacts = meeting();
+  contacts.radius = kBendingRadius;
   return contacts;
 }
 
