@@ -32,4 +32,30 @@ Real triangleDistance(const Vector3<Real>& p, const Vector3<Real>& a, const Vect
   return std::min(toEdge, std::abs((p - a).dot(normal)) / area);
 }
 
+/// Shares of the corners in the triangle's nearest place, of sum 1.
+template <class Real>
+Vector3<Real> nearestShares(const Vector3<Real>& p, const Vector3<Real>& a, const Vector3<Real>& b,
+                            const Vector3<Real>& c) {
+  const Vector3<Real> ab = b - a, ac = c - a, fromA = p - a;
+  Vector3<Real> best = Vector3<Real>::UnitX();
+  Real least = fromA.squaredNorm();
+  const auto consider = [&](const Vector3<Real>& shares) {
+    const Real square = (fromA - shares[1] * ab - shares[2] * ac).squaredNorm();
+    if (square < least) least = square, best = shares;
+  };
+  const auto onLine = [&](const Vector3<Real>& from, const Vector3<Real>& line) {
+    const Real square = line.squaredNorm();
+    return square > Real(0) ? std::clamp((p - from).dot(line) / square, Real(0), Real(1)) : Real(0);
+  };
+  const Real onAb = onLine(a, ab), onAc = onLine(a, ac), onBc = onLine(b, Vector3<Real>(c - b));
+  consider({1 - onAb, onAb, 0});
+  consider({1 - onAc, 0, onAc});
+  consider({0, 1 - onBc, onBc});
+  const Real bb = ab.squaredNorm(), cc = ac.squaredNorm(), bc = ab.dot(ac);
+  const Real ofB = ab.dot(fromA), ofC = ac.dot(fromA), area = bb * cc - bc * bc;
+  const Real v = (cc * ofB - bc * ofC) / area, w = (bb * ofC - bc * ofB) / area;
+  if (v >= 0 && w >= 0 && v + w <= 1) consider({1 - v - w, v, w});
+  return best;
+}
+
 }  // namespace ringlet::reference

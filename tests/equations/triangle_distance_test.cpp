@@ -33,6 +33,20 @@ TEST(TriangleDistance, IsTheLeastOfAllPlaces) {
   }
 }
 
+TEST(TriangleDistance, SharesAreOfTheNearestPlace) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> place(-1, 1);
+  const auto any = [&] { return Vector(place(random), place(random), place(random)); };
+  for (int i = 0; i < 400; ++i) {
+    const Vector a = any(), b = any(), c = i % 20 == 0 ? Vector(a + 0.3 * (b - a)) : any(), p = 2 * any();
+    const Vector shares = nearestShares<double>(p, a, b, c);
+    EXPECT_NEAR(shares.sum(), 1, 1e-12);
+    EXPECT_GE(shares.minCoeff(), -1e-12);
+    EXPECT_NEAR((p - shares[0] * a - shares[1] * b - shares[2] * c).norm(),
+                triangleDistance<double>(p, a, b, c), 1e-9);
+  }
+}
+
 TEST(TriangleDistance, TakesTrianglesWithoutArea) {
   const Vector a(0, 0, 0), b(1, 0, 0), p(0.5, 2, 0), beyond(4, 4, 0);
   EXPECT_DOUBLE_EQ(triangleDistance<double>(p, a, b, b), 2);
