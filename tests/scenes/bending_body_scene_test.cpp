@@ -40,10 +40,12 @@ std::filesystem::path folderWithBall(const char* name) {
   return folder;
 }
 
-Result<LoadedScene> loadedWith(const std::filesystem::path& folder, const std::string& keys) {
-  std::ofstream(folder / "scene.toml") << "[groom]\nfile = 'hair.obj'\nunit = 1\n[simulation]\nframes = 12\n"
-                                          "steps_per_frame = 4\n[[body]]\nname = 'ball'\nshape = 'mesh'\n"
-                                       << keys;
+Result<LoadedScene> loadedWith(const std::filesystem::path& folder, const std::string& keys,
+                               int frames = 12) {
+  std::ofstream(folder / "scene.toml")
+      << "[groom]\nfile = 'hair.obj'\nunit = 1\n[simulation]\nframes = " << frames
+      << "\nsteps_per_frame = 4\n[[body]]\nname = 'ball'\nshape = 'mesh'\n"
+      << keys;
   const auto scene = readScene(folder / "scene.toml");
   if (!scene) return scene.error();
   return loadScene(*scene);
@@ -73,6 +75,22 @@ TEST(BendingBodyScene, EveryKindOfFileGivesItsPoints) {
     // A step alone has its own.
     EXPECT_EQ(frame->step(2).points[0], std::vector(frame->points[0].begin() + std::ptrdiff_t(2 * count),
                                                     frame->points[0].begin() + std::ptrdiff_t(3 * count)));
+  }
+}
+
+// A run that is cut short has the same bits.
+TEST(BendingBodyScene, ItsGridIsTheSameForAShorterRun) {
+  const auto folder = folderWithBall("bending_body_shorter");
+  const std::string body = "file = 'ball.obj'\ncache = 'ball.pc2'\ndeforms = true\nunit = 1\ncells = 20\n";
+  for (const char* region : {"hair", "all"}) {
+    const std::string keys = body + fmt::format("region = '{}'\n", region);
+    const auto whole = loadedWith(folder, keys), part = loadedWith(folder, keys, 2);
+    ASSERT_TRUE(whole && part);
+    const BendingMesh &a = *whole->bodies[0].mesh, &b = *part->bodies[0].mesh;
+    EXPECT_EQ(a.origin, b.origin) << region;
+    EXPECT_EQ(a.cell, b.cell) << region;
+    EXPECT_EQ(a.counts, b.counts) << region;
+    EXPECT_EQ(a.reach, b.reach) << region;
   }
 }
 

@@ -21,6 +21,7 @@ namespace ringlet {
 namespace {
 
 constexpr std::size_t kPointsToFit = 2000;
+constexpr int kMostLooks = 1000;
 
 Result<std::shared_ptr<const MeshMotion>> meshOfBody(const SceneBody& scene, const SceneFile& file,
                                                      bool isHeads, const LoadedScene& loaded) {
@@ -93,7 +94,19 @@ class PointsNear {
   std::vector<Vec3d> first_;
 };
 
-// The rigid motion that most of the mesh near the hair shares, a key a frame: what does not bend then stays
+// Times of the run at which the mesh is looked at: a look a frame, or some 1000 looks [s]. They cover all of
+// its motion, whatever part of it is run: a shorter run has the same carrier and grid, and so the same bits.
+std::vector<double> looksAt(const MovingBody& moving, double framesPerSecond) {
+  const double end = moving.start + moving.mesh->lastSeconds() - moving.mesh->firstSeconds();
+  const int last = static_cast<int>(std::clamp(std::ceil(end * framesPerSecond), 1.0, 1e6));
+  const int stride = 1 + last / kMostLooks;
+  std::vector<double> times;
+  for (int frame = 0; frame < last + stride; frame += stride)
+    times.push_back(std::min(frame, last) / framesPerSecond);
+  return times;
+}
+
+// The rigid motion that most of the mesh near the hair shares, a key a look: what does not bend then stays
 // where it is in the grid.
 Motion sharedMotion(const MovingBody& moving, double preRollSeconds, const LoadedScene& loaded, bool isAll) {
   const std::vector<Vec3d> first = moving.pointsAt(0, loaded.motion);
@@ -105,14 +118,21 @@ Motion sharedMotion(const MovingBody& moving, double preRollSeconds, const Loade
   keys.restsAtEnds = true;
   const double framesPerSecond = loaded.settings.framesPerSecond;
   const int before = static_cast<int>(std::ceil(preRollSeconds * framesPerSecond));
-  for (int frame = -before; frame <= loaded.frameCount; ++frame) {
-    keys.times.push_back(frame / framesPerSecond);
-    keys.poses.push_back(near.motionTo(moving.pointsAt(keys.times.back(), loaded.motion)));
-  }
+  for (int frame = -before; frame < 0; ++frame) keys.times.push_back(frame / framesPerSecond);
+  for (const double t : looksAt(moving, framesPerSecond)) keys.times.push_back(t);
+  for (const double t : keys.times) keys.poses.push_back(near.motionTo(moving.pointsAt(t, loaded.motion)));
   Motion motion;
   motion.kind = MotionKind::keyframes;
   motion.keyframes = std::make_shared<const Keyframes>(std::move(keys));
   return motion;
+}
+
+// Where the mesh comes to, seen from its carrier.
+Bounds placesOf(const MovingBody& moving, const Body& body, const LoadedScene& loaded) {
+  Bounds all = Bounds::none();
+  for (const double t : looksAt(moving, loaded.settings.framesPerSecond))
+    for (const Vec3d p : moving.pointsSeenAt(t, body, loaded.motion)) all.add(p);
+  return all;
 }
 
 }  // namespace
@@ -135,13 +155,7 @@ Status loadBendingBody(const SceneFile& file, std::size_t index, LoadedScene& lo
 
   const auto carrierAt = [&](double t) { return body.poseAt(t, loaded.motion.poseAt(t)); };
   TriangleMesh first{moving.pointsSeenAt(0, body, loaded.motion), (*read)->triangles()};
-  // Where the mesh is over the run, a look a frame.
-  Bounds all = Bounds::none();
-  const int looks = std::max(1, loaded.frameCount);
-  for (int frame = 0; frame <= looks; ++frame) {
-    const double t = frame / loaded.settings.framesPerSecond;
-    for (const Vec3d p : moving.pointsSeenAt(t, body, loaded.motion)) all.add(p);
-  }
+  const Bounds all = placesOf(moving, body, loaded);
   const Bounds box =
       isAll ? all : common(all, reachOfHair(loaded.groom, loaded.motion.poseAt(0), carrierAt(0)));
   if (!box.hasRoom())
