@@ -62,6 +62,8 @@ void BendingMotion<Real>::beginFrame(std::span<const BodyPose> start, std::span<
 
   // The largest way of a point near a grid, in cells.
   double most = 0;
+  for (const std::size_t b : bending_)
+    if (bodies_[b].isCloth()) most = double(way.size() - 1);
   for (std::size_t m = 0; m < bending_.size(); ++m) {
     const BendingMesh& mesh = *bodies_[bending_[m]].mesh;
     for (std::size_t i = 0; i < now_[m].size(); ++i) {

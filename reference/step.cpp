@@ -349,6 +349,14 @@ template <class Real>
 void Simulation<Real>::stepOnce(std::size_t k, std::size_t steps, const HeadPose& next,
                                 std::span<const BodyPose> bodyPoses, const std::vector<BodyPose>& roots) {
   const std::vector<BodyStep<Real>> bodies = bodySteps(k, next, bodyPoses);
+  std::vector<std::vector<ClothList<Real>>> lists;  // of all particles, by body
+  for (const BodyStep<Real>& body : bodies) lists.push_back(clothLists<Real>(body, positions_, velocities_));
+  const auto ofStrand = [&](std::vector<BodyStep<Real>> all, std::size_t s) {
+    for (std::size_t b = 0; b < all.size(); ++b)
+      if (!lists[b].empty())
+        all[b].lists = std::span(lists[b]).subspan(firstPoint_[s], rest_[s].particleCount());
+    return all;
+  };
   // Where hair meets as a volume the first solve, by which strands hear of each other, knows no bodies.
   const bool meetsAsOne = settings_.contacts.on && !contacts_.pairByPair;
   const std::vector<BodyStep<Real>> inFirstSolve = meetsAsOne ? std::vector<BodyStep<Real>>{} : bodies;
@@ -365,15 +373,16 @@ void Simulation<Real>::stepOnce(std::size_t k, std::size_t steps, const HeadPose
                         : OutsideForces(forces_).subspan(firstPoint_[s], rest_[s].particleCount());
     prepareStrand(rest_[s], settings_, head, air, forces, goalStep(s, k, steps), fields, positions,
                   velocities, scratch_, taps_[s], systems_[s]);
-    solveVelocities(rest_[s], settings_, head, forces, inFirstSolve, systems_[s], scratch_, taps_[s],
-                    positions, velocities);
+    solveVelocities(rest_[s], settings_, head, forces, ofStrand(inFirstSolve, s), systems_[s], scratch_,
+                    taps_[s], positions, velocities);
   }
   if (settings_.contacts.on) {
     updateContacts(settings_.contacts, static_cast<Real>(settings_.stepSeconds()), positions_, velocities_,
                    contacts_);
     const auto solveOne = [&](std::size_t s, std::span<Vector3<double>> velocities) {
       if (isRigid_[s]) return;
-      solveAmongBodies<Real>(rest_[s], bodies, strandOf(positions_, s), systems_[s], scratch_, velocities);
+      solveAmongBodies<Real>(rest_[s], ofStrand(bodies, s), strandOf(positions_, s), systems_[s], scratch_,
+                             velocities);
     };
     const VolumeFrame frame{toEigen<double>(head_.rotation), toEigen<double>(next.rotation),
                             settings_.stepSeconds()};
@@ -382,7 +391,7 @@ void Simulation<Real>::stepOnce(std::size_t k, std::size_t steps, const HeadPose
   }
   for (std::size_t s = 0; s < rest_.size(); ++s) {
     if (isRigid_[s]) continue;
-    moveStrand(rest_[s], settings_, headStep(next, s, roots[s]), bodies, strandOf(positions_, s),
+    moveStrand(rest_[s], settings_, headStep(next, s, roots[s]), ofStrand(bodies, s), strandOf(positions_, s),
                strandOf(velocities_, s), scratch_, taps_[s]);
     record(rest_[s], taps_[s]);
   }

@@ -80,11 +80,23 @@ struct EdgeSurface {
   Vector3<Real> place = Vector3<Real>::Zero();
   Real nearest = 0;  // distance of the nearest of ends and place [m]
 };
+/// At a place of an edge; side: the sum of the normals at its ends. Only cloth has two sides
+/// (kernels/bending_field.h).
+template <class Real, class Shape>
+Surface<Real> distanceBetween(const Shape& body, const Vector3<Real>& y, const Vector3<Real>&) {
+  return bodyDistance<Real>(body, y);
+}
+/// Whether the edge goes from one side to the other there, so that there is no way out.
+template <class Real, class Shape>
+bool goesThrough(const Shape&, const Surface<Real>&, const Vector3<Real>&) {
+  return false;
+}
 /// An edge with an end inside leaves with its particle: `isWithin` is false for it too.
 template <class Real, class Shape>
 EdgeSurface<Real> edgeDistance(const Shape& body, const Vector3<Real>& a, const Vector3<Real>& b) {
   const Vector3<Real> edge = b - a;
   const Surface<Real> atA = bodyDistance<Real>(body, a), atB = bodyDistance<Real>(body, b);
+  const Vector3<Real> side = atA.normal + atB.normal;
   const Real slopeA = atA.normal.dot(edge), slopeB = atB.normal.dot(edge);
   EdgeSurface<Real> result;
   result.isWithin = slopeA < Real(0) && slopeB > Real(0) && atA.distance >= Real(-kOutside) &&
@@ -94,7 +106,7 @@ EdgeSurface<Real> edgeDistance(const Shape& body, const Vector3<Real>& a, const 
     // is.
     const Real first =
         std::clamp((atB.distance - slopeB - atA.distance) / (slopeA - slopeB), Real(0), Real(1));
-    const Surface<Real> there = bodyDistance<Real>(body, a + first * edge);
+    const Surface<Real> there = distanceBetween<Real>(body, Vector3<Real>(a + first * edge), side);
     const Real slope = there.normal.dot(edge);
     if (slope > Real(0)) {
       result.along = first * leastOfCubic(atA.distance, first * slopeA, there.distance, first * slope);
@@ -106,7 +118,9 @@ EdgeSurface<Real> edgeDistance(const Shape& body, const Vector3<Real>& a, const 
     result.along = atA.distance < atB.distance ? Real(0) : Real(1);
   }
   result.place = a + result.along * edge;
-  result.surface = bodyDistance<Real>(body, result.place);
+  result.surface = result.isWithin ? distanceBetween<Real>(body, result.place, side)
+                                   : bodyDistance<Real>(body, result.place);
+  if (result.isWithin && goesThrough<Real>(body, result.surface, side)) result.isWithin = false;
   result.nearest = std::min({atA.distance, atB.distance, result.surface.distance});
   return result;
 }

@@ -1,5 +1,6 @@
 // Where a particle meets cloth, triangles that move and have hair on both sides, and how it is kept off them
-// (our choice; the paper has none). No kernel has it yet: bodies of the solver are closed.
+// (our choice; the paper has none). Mirrors shaders/equations/cloth_contact.glsl and
+// shaders/shared/cloth_lists.glsl.
 //
 //   In the frame of what carries the cloth, over a step, the particle goes straight from y0 to y1 and each
 //   corner of a triangle straight on by w. Let d be the particle's distance to the triangle and n the
@@ -12,6 +13,11 @@
 //     a    q    b          A particle that does not approach cannot come nearer; one that does is safe until
 //                          that is the distance kept. So a way is followed in ever shorter parts to the place
 //                          of contact, and along the cloth in few.
+//
+//   A particle knows only the triangles of its list: those that come nearest to the way on which it would go
+//   if nothing but cloth changed its velocity, in the frame that moves on with the cloth at its start. All
+//   others stay `reach` away from that way, so it may leave it by that much less the distance kept, and is
+//   held there.
 #pragma once
 
 #include <algorithm>
@@ -19,6 +25,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "reference/equations/body_contact.h"
 #include "reference/equations/triangle_distance.h"
@@ -31,21 +38,56 @@ inline constexpr double kOnCloth = 1e-5;  // [m]: nearer to a triangle, its own 
                                           // way is all rounding
 inline constexpr double kSlip = 1e-6;     // [m] in what is left of a step: what approaches by less slides
 inline constexpr int kClothRounds = 8;    // slides along cloth in a step; then the particle is held
+inline constexpr std::size_t kClothListed = 31;  // triangles that a particle knows, at most
+inline constexpr double kOneSide = 0.5;          // square of the sum of two normals that are of one side
+inline constexpr double kThrough = 1e-4;         // [m]: nearer, an edge between two sides goes through
+inline constexpr double kClothSearch = 0.1;  // [m]: triangles further from a particle's way are in no list
+inline constexpr int kOutTurns = 12;         // halvings of a way of which not all is known
+inline constexpr double kListSlack =
+    2e-3;  // of a way's length: how much too large lineTriangleDistance may be
+inline constexpr double kListRound = 1e-5;  // [m]: the same, for positions are rounded
 
-/// Triangles at a time, and where their points are at the next time that is known [m].
+using ClothTriangle = std::array<std::uint32_t, 3>;
+
+/// The triangles that a particle may meet in a step, and how far from its way it knows all of them.
+template <class Real>
+struct ClothList {
+  Vector3<Real> from = Vector3<Real>::Zero();   // where the way starts [m]
+  Vector3<Real> along = Vector3<Real>::Zero();  // the way, in the frame that moves on with the cloth [m]
+  Vector3<Real> way =
+      Vector3<Real>::Zero();          // of that frame, that of the nearest place, to the next time [m]
+  Real share = 0;                     // of the way to the next time, at the step's start
+  Real reach = 0;                     // [m]
+  Real distance = Real(kClothReach);  // of the nearest place at the step's start, at most kClothReach [m]
+  std::vector<ClothTriangle> triangles{};
+
+  /// How far all triangles that are not listed are from a place, at least [m].
+  Real reachFrom(const Vector3<Real>& y, Real at) const {
+    return reach - segmentDistance<Real>(y - (at - share) * way, from, Vector3<Real>(from + along));
+  }
+};
+
+/// Points of triangles at a time, and where they are at the next time that is known [m]; and what a particle,
+/// or the two ends of an edge, know of the triangles.
 template <class Real>
 struct Cloth {
-  std::span<const std::array<std::uint32_t, 3>> triangles;
   std::span<const Vector3<Real>> points, next;
+  std::array<const ClothList<Real>*, 2> lists{};
+
+  /// The list that reaches furthest at a place.
+  const ClothList<Real>& listAt(const Vector3<Real>& y, Real share) const {
+    if (lists[0] == lists[1]) return *lists[0];
+    return *lists[lists[1]->reachFrom(y, share) > lists[0]->reachFrom(y, share) ? 1 : 0];
+  }
 };
 
 /// What is near a place.
 template <class Real>
 struct ClothPlace {
   bool found = false;
-  Real distance = 0;                              // from the nearest place of a triangle [m]
-  Vector3<Real> normal = Vector3<Real>::UnitY();  // from there
-  Vector3<Real> way = Vector3<Real>::Zero();      // how far that place moves to the next time [m]
+  Real distance = 0;                             // from the nearest place of a triangle [m]
+  Vector3<Real> normal = Vector3<Real>::Zero();  // from there
+  Vector3<Real> way = Vector3<Real>::Zero();     // how far that place moves to the next time [m]
 };
 
 namespace cloth {
@@ -99,14 +141,33 @@ Real untilNearer(const Seen<Real>& seen, const Vector3<Real>& perStep, Real shar
   return std::max(curved, gap / most);
 }
 
+// For how many steps from now a particle stays as near to its list's way as it must: all of `left`, or the
+// last time of some at which it does, for how far it is from the way has no largest value on its own straight
+// way.
+template <class Real>
+Real untilOut(const ClothList<Real>& list, const Vector3<Real>& place, Real share,
+              const Vector3<Real>& perStep, Real shares, Real left, Real kept) {
+  const auto isKnown = [&](Real at) {
+    return list.reachFrom(place + at * perStep, share + at * shares) >= kept;
+  };
+  if (isKnown(left)) return left;
+  Real in = 0, out = left;
+  for (int k = 0; k < kOutTurns; ++k) {
+    const Real middle = (in + out) / 2;
+    (isKnown(middle) ? in : out) = middle;
+  }
+  return in;
+}
+
 }  // namespace cloth
 
-/// The nearest place of all triangles, at a share of the way to the next time; none is found beyond
-/// kClothReach.
+/// The nearest place of the listed triangles, at a share of the way to the next time. None is found beyond
+/// kClothReach, nor where a triangle that is not listed may be nearer.
 template <class Real>
 ClothPlace<Real> nearestOfCloth(const Cloth<Real>& cloth, Real share, const Vector3<Real>& y) {
-  ClothPlace<Real> nearest{.distance = Real(kClothReach)};
-  for (const auto& triangle : cloth.triangles) {
+  const ClothList<Real>& list = cloth.listAt(y, share);
+  ClothPlace<Real> nearest{.distance = std::clamp(list.reachFrom(y, share), Real(0), Real(kClothReach))};
+  for (const ClothTriangle& triangle : list.triangles) {
     const cloth::Seen<Real> seen = cloth::seen(cloth, triangle, share, y);
     if (seen.distance >= nearest.distance) continue;
     nearest = {true, seen.distance, seen.normal, seen.way};
@@ -123,6 +184,58 @@ struct ClothWay {
   Real share, shares;
   Real begin = 0;
 };
+
+/// The list of a particle of which the way would be that: at most `most` triangles.
+template <class Real>
+ClothList<Real> clothList(const Cloth<Real>& cloth, std::span<const ClothTriangle> triangles,
+                          const ClothWay<Real>& way, std::size_t most) {
+  ClothList<Real> list{.from = way.y0, .share = way.share};
+  Real nearest = Real(kClothSearch);
+  for (const ClothTriangle& triangle : triangles) {
+    const cloth::Seen<Real> seen = cloth::seen(cloth, triangle, way.share, way.y0);
+    if (seen.distance < nearest) nearest = seen.distance, list.way = seen.way;
+  }
+  list.along = way.y1 - way.y0 - way.shares * list.way;
+  const auto cornersAt = [&](const ClothTriangle& triangle) {
+    std::array<Vector3<Real>, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k)
+      corners[k] =
+          cloth.points[triangle[k]] + way.share * (cloth.next[triangle[k]] - cloth.points[triangle[k]]);
+    return corners;
+  };
+  // Where the way goes through cloth, it will slide from there on.
+  Real first = 2;
+  Vector3<Real> beyond = Vector3<Real>::Zero();
+  for (const ClothTriangle& triangle : triangles) {
+    const auto [a, b, c] = cornersAt(triangle);
+    const Real at = crossingShare<Real>(way.y0, Vector3<Real>(way.y0 + list.along), a, b, c);
+    if (at >= first) continue;
+    const Vector3<Real> n = (b - a).cross(c - a).normalized();
+    first = at, beyond = (1 - at) * n.dot(list.along) * n;
+  }
+  list.along -= beyond;
+  struct Bound {
+    Real least;  // how near it comes, in the step, to the way
+    ClothTriangle triangle;
+  };
+  std::vector<Bound> bounds;
+  for (const ClothTriangle& triangle : triangles) {
+    const auto [a, b, c] = cornersAt(triangle);
+    const Real apart = lineTriangleDistance<Real>(way.y0, Vector3<Real>(way.y0 + list.along), a, b, c);
+    Real faster = 0;
+    for (const std::uint32_t p : triangle)
+      faster = std::max(faster, way.shares * (cloth.next[p] - cloth.points[p] - list.way).norm());
+    const Real least = apart - faster - Real(kListSlack) * list.along.norm() - Real(kListRound);
+    if (least < Real(kClothSearch)) bounds.push_back({least, triangle});
+  }
+  std::ranges::stable_sort(bounds, {}, &Bound::least);
+  if (bounds.size() > most) bounds.resize(most);
+  list.reach = bounds.size() == most ? bounds.back().least : Real(kClothSearch);
+  list.distance = std::min({nearest, Real(kClothReach), std::max(list.reach, Real(0))});
+  for (const Bound& bound : bounds) list.triangles.push_back(bound.triangle);
+  return list;
+}
+
 /// Where it comes as near as `kept` to the cloth, still approaching it.
 template <class Real>
 struct ClothTouch {
@@ -137,18 +250,13 @@ ClothTouch<Real> traceCloth(const Cloth<Real>& cloth, const ClothWay<Real>& way,
   ClothTouch<Real> touch{.at = way.begin, .place = way.y0};
   const Real left = 1 - way.begin;
   const Vector3<Real> perStep = left > 0 ? Vector3<Real>((way.y1 - way.y0) / left) : Vector3<Real>::Zero();
-  Real longest = 0;  // way of a point
-  for (std::size_t i = 0; i < cloth.points.size(); ++i)
-    longest = std::max(longest, way.shares * (cloth.next[i] - cloth.points[i]).norm());
+  const ClothList<Real>& list = *cloth.lists[0];
   for (int turn = 0;; ++turn) {
-    // How much further nothing is touched; cloth beyond the reach is not met before that.
-    const Real room = (Real(kClothReach) - kept) / std::max(perStep.norm() + longest, Real(1e-20));
-    const bool isCut = room < 1 - touch.at;
-    Real until = isCut ? room : 1 - touch.at;
+    const Real share = way.share + touch.at * way.shares;
     touch.found = false;
-    for (const auto& triangle : cloth.triangles) {
-      const cloth::Seen<Real> seen =
-          cloth::seen<Real>(cloth, triangle, way.share + touch.at * way.shares, touch.place);
+    Real until = 1 - touch.at;
+    for (const ClothTriangle& triangle : list.triangles) {
+      const cloth::Seen<Real> seen = cloth::seen<Real>(cloth, triangle, share, touch.place);
       const Vector3<Real>& n = seen.normal;
       const Real gap = seen.distance - kept;
       const bool approaches = (way.shares * n.dot(seen.way) - n.dot(perStep)) * left > Real(kSlip);
@@ -162,13 +270,18 @@ ClothTouch<Real> traceCloth(const Cloth<Real>& cloth, const ClothWay<Real>& way,
       touch.surface = {gap, n};
       touch.way = way.shares * seen.way;
     }
-    if (touch.found ? until <= Real(0) || turn == kTraceTurns : !isCut) break;
-    if (turn == kTraceTurns) {  // too fast to be followed: held
+    const Real out = cloth::untilOut<Real>(list, touch.place, share, perStep, way.shares, until, kept);
+    if (out < until ||
+        (touch.found && until > Real(0) &&
+         turn == kTraceTurns)) {  // where triangles are not known, or too fast to be followed: held there
+      touch.at += out;
+      touch.place = way.y0 + (touch.at - way.begin) * perStep;
       touch.found = true;
-      touch.surface = {0, directionOr<Real>(-perStep, Vector3<Real>::UnitY())};
-      touch.way = Vector3<Real>::Zero();
+      touch.way = way.shares * list.way;
+      touch.surface = {0, directionOr<Real>(Vector3<Real>(touch.way - perStep), Vector3<Real>::UnitY())};
       break;
     }
+    if (!touch.found || until <= Real(0)) break;
     touch.at += until;
     touch.place = way.y0 + (touch.at - way.begin) * perStep;
   }
@@ -186,7 +299,7 @@ template <class Real>
 KeptOff<Real> keptOff(const Cloth<Real>& cloth, ClothWay<Real> way, Real kept) {
   const Vector3<Real> came = way.y1;
   Vector3<Real> normal = Vector3<Real>::Zero();
-  kept = std::min(kept, nearestOfCloth<Real>(cloth, way.share, way.y0).distance);
+  kept = std::min(kept, cloth.lists[0]->distance);
   for (int round = 0; round <= kClothRounds; ++round) {
     const ClothTouch<Real> touch = traceCloth<Real>(cloth, way, kept);
     if (!touch.found) break;

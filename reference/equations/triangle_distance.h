@@ -58,4 +58,46 @@ Vector3<Real> nearestShares(const Vector3<Real>& p, const Vector3<Real>& a, cons
   return best;
 }
 
+/// How far two straight lines, from p to q and from a to b, come from each other (Ericson, "Real-Time
+/// Collision Detection", 2005, section 5.1.9).
+template <class Real>
+Real linesDistance(const Vector3<Real>& p, const Vector3<Real>& q, const Vector3<Real>& a,
+                   const Vector3<Real>& b) {
+  constexpr Real kLeast = Real(1e-30);  // in place of the square of a length 0
+  const Vector3<Real> pq = q - p, ab = b - a, fromA = p - a;
+  const Real pp = pq.squaredNorm(), aa = ab.squaredNorm(), pa = pq.dot(ab);
+  const Real ofP = pq.dot(fromA), ofA = ab.dot(fromA), across = pp * aa - pa * pa;
+  const Real first = std::clamp((pa * ofA - ofP * aa) / std::max(across, kLeast), Real(0), Real(1));
+  const Real onA = std::clamp((pa * first + ofA) / std::max(aa, kLeast), Real(0), Real(1));
+  const Real onP = std::clamp((pa * onA - ofP) / std::max(pp, kLeast), Real(0), Real(1));
+  return (fromA + onP * pq - onA * ab).norm();
+}
+
+/// Where a straight line from p to q goes through a triangle, as a share of the line; 2 where it does not.
+template <class Real>
+Real crossingShare(const Vector3<Real>& p, const Vector3<Real>& q, const Vector3<Real>& a,
+                   const Vector3<Real>& b, const Vector3<Real>& c) {
+  const Vector3<Real> ab = b - a, ac = c - a, normal = ab.cross(ac);
+  const Real before = normal.dot(p - a), after = normal.dot(q - a);
+  if (!(before * after < 0)) return Real(2);
+  const Real at = before / (before - after), area = normal.squaredNorm();
+  const Vector3<Real> fromA = p + at * (q - p) - a;
+  const Real v = fromA.cross(ac).dot(normal), w = ab.cross(fromA).dot(normal);
+  return v >= 0 && w >= 0 && v + w <= area ? at : Real(2);
+}
+
+/// How far a straight line from p to q comes from a triangle; 0 where it goes through. Nearly parallel lines
+/// cost digits: it is too large by at most some thousandths of the line's length.
+template <class Real>
+Real lineTriangleDistance(const Vector3<Real>& p, const Vector3<Real>& q, const Vector3<Real>& a,
+                          const Vector3<Real>& b, const Vector3<Real>& c) {
+  const auto toPlace = [&](const Vector3<Real>& place) {
+    const Vector3<Real> shares = nearestShares<Real>(place, a, b, c);
+    return (place - shares[0] * a - shares[1] * b - shares[2] * c).norm();
+  };
+  if (crossingShare<Real>(p, q, a, b, c) <= Real(1)) return Real(0);
+  return std::min({toPlace(p), toPlace(q), linesDistance<Real>(p, q, a, b), linesDistance<Real>(p, q, b, c),
+                   linesDistance<Real>(p, q, c, a)});
+}
+
 }  // namespace ringlet::reference

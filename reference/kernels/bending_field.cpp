@@ -8,6 +8,13 @@ namespace ringlet::reference {
 template <class Real>
 BendingField<Real> bendingField(const BendingMesh& mesh, std::span<const Vec3d> points,
                                 std::span<const Vec3d> next, Real band) {
+  if (mesh.isCloth) {
+    BendingField<Real> field;
+    field.cloth = &mesh;
+    for (const Vec3d& p : points) field.points.push_back(toEigen<Real>(p));
+    for (const Vec3d& p : next) field.next.push_back(toEigen<Real>(p));
+    return field;
+  }
   MeshField<Real> made = meshField<Real>(mesh, points, band);
   BendingField<Real> field;
   field.grid = {mesh.origin, mesh.cell, mesh.counts, {}};

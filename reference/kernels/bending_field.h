@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "reference/equations/body_distance.h"
+#include "reference/equations/cloth_contact.h"
 #include "reference/fields.h"
 #include "reference/kernels/mesh_field.h"
 #include "ringlet/scene/body.h"
@@ -21,6 +22,9 @@ struct BendingField {
   DistanceGrid grid;
   std::vector<std::uint32_t> triangles;  // nearest to each corner, or none
   std::vector<Vector3<Real>> ways;       // of each triangle, the mean of its points [m]
+  // Of cloth, which has no grid:
+  const BendingMesh* cloth = nullptr;
+  Field<Real> points, next;
 
   /// Of the triangle nearest to the corner nearest to y; none may be near.
   Vector3<Real> wayNear(const Vector3<Real>& y) const {
@@ -51,14 +55,44 @@ struct BodyShapeAt {
   const Body* body = nullptr;
   const BendingField<Real>* field = nullptr;
   Real share = 0;
+  std::array<const ClothList<Real>*, 2> lists{};  // of cloth, what is known of it
+
+  bool isCloth() const { return field && field->cloth; }
+  Cloth<Real> asCloth() const { return {field->points, field->next, lists}; }
+  /// How the surface near y moves to the next time [m]; of cloth, near the start of the particle that it is
+  /// about.
+  Vector3<Real> wayNear(const Vector3<Real>& y) const {
+    return isCloth() ? lists[0]->way : field->wayNear(y);
+  }
+  bool isNear(const Vector3<Real>& y) const { return isCloth() || field->isNear(y); }
 };
 template <class Real>
 Surface<Real> bodyDistance(const BodyShapeAt<Real>& at, const Vector3<Real>& y) {
   if (!at.field) return bodyDistance<Real>(*at.body, y);
+  if (at.isCloth()) {
+    const ClothPlace<Real> place = nearestOfCloth<Real>(at.asCloth(), at.share, y);
+    return {place.distance - static_cast<Real>(at.body->thickness), place.normal};
+  }
   Surface<Real> surface =
       gridDistance<Real>(at.field->grid, Vector3<Real>(y - at.share * at.field->wayNear(y)));
   surface.distance -= static_cast<Real>(at.body->thickness);
   return surface;
+}
+
+/// Of cloth that an edge dips into, the way back to the side of its ends, if both are on one.
+template <class Real>
+Surface<Real> distanceBetween(const BodyShapeAt<Real>& at, const Vector3<Real>& y,
+                              const Vector3<Real>& side) {
+  const Surface<Real> surface = bodyDistance<Real>(at, y);
+  const bool dips = side.squaredNorm() > Real(kOneSide) && surface.normal.dot(side) < Real(0);
+  if (!at.isCloth() || !dips) return surface;
+  return {-surface.distance - 2 * static_cast<Real>(at.body->thickness), -surface.normal};
+}
+
+template <class Real>
+bool goesThrough(const BodyShapeAt<Real>& at, const Surface<Real>& surface, const Vector3<Real>& side) {
+  return at.isCloth() && side.squaredNorm() <= Real(kOneSide) &&
+         surface.distance + static_cast<Real>(at.body->thickness) < Real(kThrough);
 }
 
 }  // namespace ringlet::reference

@@ -23,9 +23,28 @@ std::size_t buriedCount(const RestStrand<Real>& rest, const BodyStep<Real>& step
   std::size_t count = 0;
   if (rest.falls()) return 0;
   while (count < std::min(kMostBuried, positions.size()) &&
-         bodyDistance<Real>(step.shapeNow, step.atStart(positions[count])).distance < Real(-kOutside))
+         bodyDistance<Real>(step.at(count).shapeNow, step.atStart(positions[count])).distance <
+             Real(-kOutside))
     ++count;
   return count;
+}
+
+/// Where a particle that goes from p to q meets the body, and the body's velocity there.
+template <class Real>
+struct Met {
+  Touch<Real> touch;
+  Vector3<Real> velocity;  // [m/s]
+};
+template <class Real>
+Met<Real> meet(const BodyStep<Real>& step, const Vector3<Real>& p, const Vector3<Real>& q) {
+  const Vector3<Real> y0 = step.atStart(p), y1 = step.atEnd(q);
+  if (!step.shapeNow.isCloth())
+    return {traceParticle<Real>(step.shapeNow, y0, Vector3<Real>(y1 - step.bentOnPath(y0, y1))),
+            step.velocityAt(p)};
+  const ClothTouch<Real> touch = traceCloth<Real>(step.shapeNow.asCloth(), step.clothWay(y0, y1),
+                                                  static_cast<Real>(step.body->thickness));
+  return {{touch.found, touch.surface, touch.place, Vector3<Real>(y0 + touch.at * touch.way)},
+          step.velocityAt(p, touch.way)};
 }
 
 /// A particle that began the step outside, at y0, and has moved to y1: out of the body, the way it came.
@@ -36,6 +55,11 @@ struct KeptOut {
 };
 template <class Real>
 KeptOut<Real> keptOut(const BodyStep<Real>& step, const Vector3<Real>& y0, Vector3<Real> y1) {
+  if (step.shapeNow.isCloth()) {
+    const KeptOff<Real> kept = keptOff<Real>(step.shapeNow.asCloth(), step.clothWay(y0, y1),
+                                             static_cast<Real>(step.body->thickness));
+    return {kept.moved, kept.place, kept.normal};
+  }
   if (bodyDistance<Real>(step.shapeNow, y0).distance < Real(-kOutside)) return {};
   const Touch<Real> touch =
       traceParticle<Real>(step.shapeNow, y0, Vector3<Real>(y1 - step.bentOnPath(y0, y1)));
@@ -66,28 +90,39 @@ KeptOut<Real> keptOut(const BodyStep<Real>& step, const Vector3<Real>& y0, Vecto
 }  // namespace
 
 template <class Real>
+std::vector<ClothList<Real>> clothLists(const BodyStep<Real>& step, const Field<Real>& positions,
+                                        const Field<Real>& velocities) {
+  std::vector<ClothList<Real>> lists;
+  if (!step.shapeNow.isCloth()) return lists;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Vector3<Real> end = positions[i] + step.seconds * velocities[i];
+    lists.push_back(clothList<Real>(step.shapeNow.asCloth(), step.shapeNow.field->cloth->surface.triangles,
+                                    step.clothWay(step.atStart(positions[i]), step.atEnd(end)),
+                                    kClothListed));
+  }
+  return lists;
+}
+
+template <class Real>
 bool findPushes(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>& bodies,
                 FieldView<Real> positions, FieldView<Real> free, std::vector<BodyPush<Real>>& pushes) {
   pushes.assign(rest.particleCount(), {});
   bool any = false;
   std::vector<bool> touches;  // particles that this body pushes or would
-  for (const BodyStep<Real>& step : bodies) {
+  for (const BodyStep<Real>& body : bodies) {
     touches.assign(rest.particleCount(), false);
-    const Real T = step.seconds, friction = static_cast<Real>(step.body->friction);
-    const auto start = [&](std::size_t i) { return step.atStart(positions[i]); };
-    const auto end = [&](std::size_t i) -> Vector3<Real> {
-      const Vector3<Real> y1 = step.atEnd(positions[i] + T * free[i]);
-      return y1 - step.bentOnPath(start(i), y1);
-    };
-    for (std::size_t i = std::max(rest.pinnedCount(), buriedCount(rest, step, positions));
+    const Real T = body.seconds, friction = static_cast<Real>(body.body->friction);
+    for (std::size_t i = std::max(rest.pinnedCount(), buriedCount(rest, body, positions));
          i < rest.particleCount(); ++i) {
-      const Touch<Real> touch = traceParticle<Real>(step.shapeNow, start(i), end(i));
+      const BodyStep<Real> step = body.at(i);
+      const Met<Real> met = meet(step, positions[i], Vector3<Real>(positions[i] + T * free[i]));
+      const Touch<Real>& touch = met.touch;
       if (!touch.found) continue;
       touches[i] = true;
       const bool isDeep = touch.surface.distance < Real(-kDeep);
       Vector3<Real> n = step.outward(touch.surface.normal);
       if (isDeep) n = wayOutOfDepth(n, strandDirection<Real>(positions, i));
-      const Vector3<Real> u = step.velocityAt(positions[i]);
+      const Vector3<Real>& u = met.velocity;
       const Real target = n.dot(u) + leastParting(touch, T), deficit = target - n.dot(free[i]);
       if (!(deficit > Real(0))) continue;
       const Real weight = (isDeep ? Real(kDeepShare) : Real(1)) * bodyWeight(rest.masses[i], deficit);
@@ -97,6 +132,12 @@ bool findPushes(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>&
     for (std::size_t i = 0; i + 1 < rest.particleCount(); ++i) {
       // Its ends are asked for what it needs; asked again through the edge, they would be thrown off.
       if (touches[i] && touches[i + 1]) continue;
+      const BodyStep<Real> step = body.at(i, i + 1);
+      const auto start = [&](std::size_t k) { return step.atStart(positions[k]); };
+      const auto end = [&](std::size_t k) -> Vector3<Real> {
+        const Vector3<Real> y1 = step.atEnd(positions[k] + T * free[k]);
+        return y1 - step.bentOnPath(start(k), y1);
+      };
       const Touch<Real> touch = traceEdge<Real>(step.shapeNow, start(i), end(i), start(i + 1), end(i + 1));
       if (!touch.found) continue;
       const Vector3<Real> n = step.outward(touch.surface.normal);
@@ -148,8 +189,9 @@ void rub(const RestStrand<Real>& rest, const std::vector<BodyPush<Real>>& pushes
 template <class Real>
 void keepOut(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>& bodies,
              const Field<Real>& starts, FieldView<Real> positions, FieldView<Real> velocities) {
-  for (const BodyStep<Real>& step : bodies) {
+  for (const BodyStep<Real>& body : bodies) {
     for (std::size_t i = rest.pinnedCount(); i < rest.particleCount(); ++i) {
+      const BodyStep<Real> step = body.at(i);
       const KeptOut<Real> kept = keptOut(step, step.atStart(starts[i]), step.atEnd(positions[i]));
       if (!kept.moved) continue;
       const Vector3<Real> place = step.fromEnd(kept.place), n = step.outward(kept.normal);
@@ -160,8 +202,9 @@ void keepOut(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>& bo
   }
   Field<Real> shifts(rest.particleCount(), Vector3<Real>::Zero());
   Field<Real> changes = shifts;  // of velocities, by the same edge
-  for (const BodyStep<Real>& step : bodies) {
+  for (const BodyStep<Real>& body : bodies) {
     for (std::size_t i = 0; i + 1 < rest.particleCount(); ++i) {
+      const BodyStep<Real> step = body.at(i, i + 1);
       const EdgeSurface<Real> deepest =
           edgeDistance<Real>(step.shapeNext, step.atEnd(positions[i]), step.atEnd(positions[i + 1]));
       if (!deepest.isWithin || deepest.surface.distance >= Real(0)) continue;
@@ -188,15 +231,17 @@ void keepOut(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>& bo
   }
 }
 
-#define RINGLET_INSTANTIATE(Real)                                                                   \
-  template bool findPushes(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>& bodies, \
-                           FieldView<Real> positions, FieldView<Real> free,                         \
-                           std::vector<BodyPush<Real>>& pushes);                                    \
-  template void addFriction(const RestStrand<Real>& rest, std::vector<BodyPush<Real>>& pushes,      \
-                            FieldView<Real> velocities);                                            \
-  template void rub(const RestStrand<Real>& rest, const std::vector<BodyPush<Real>>& pushes,        \
-                    FieldView<Real> velocities);                                                    \
-  template void keepOut(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>& bodies,    \
+#define RINGLET_INSTANTIATE(Real)                                                                            \
+  template std::vector<ClothList<Real>> clothLists(const BodyStep<Real>& step, const Field<Real>& positions, \
+                                                   const Field<Real>& velocities);                           \
+  template bool findPushes(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>& bodies,          \
+                           FieldView<Real> positions, FieldView<Real> free,                                  \
+                           std::vector<BodyPush<Real>>& pushes);                                             \
+  template void addFriction(const RestStrand<Real>& rest, std::vector<BodyPush<Real>>& pushes,               \
+                            FieldView<Real> velocities);                                                     \
+  template void rub(const RestStrand<Real>& rest, const std::vector<BodyPush<Real>>& pushes,                 \
+                    FieldView<Real> velocities);                                                             \
+  template void keepOut(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>& bodies,             \
                         const Field<Real>& starts, FieldView<Real> positions, FieldView<Real> velocities)
 RINGLET_INSTANTIATE(float);
 RINGLET_INSTANTIATE(double);

@@ -2,6 +2,7 @@
 // keep particles and edges out of where they have moved to. Mirrors shaders/bodies/*.glsl.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "reference/fields.h"
@@ -24,6 +25,16 @@ struct BodyStep {
   Real bending =
       0;  // share of the way from shapeNow's field to the next that the surface moves on in the step
 
+  std::span<const ClothList<Real>> lists{};  // of cloth: one a particle of the strand
+
+  /// What an edge between two particles, or a single one, knows of the body.
+  BodyStep at(std::size_t i, std::size_t j) const {
+    BodyStep known = *this;
+    if (!lists.empty()) known.shapeNow.lists = known.shapeNext.lists = {&lists[i], &lists[j]};
+    return known;
+  }
+  BodyStep at(std::size_t i) const { return at(i, i); }
+
   Vector3<Real> atStart(const Vector3<Real>& p) const {
     return rotationNow.conjugate() * Vector3<Real>(p - positionNow);
   }
@@ -35,20 +46,31 @@ struct BodyStep {
   /// How far the surface near y moves in the step, seen from what carries the body [m].
   Vector3<Real> bent(const Vector3<Real>& y) const {
     if (!shapeNow.field) return Vector3<Real>::Zero();
-    return bending * shapeNow.field->wayNear(y);
+    return bending * shapeNow.wayNear(y);
+  }
+  /// A particle's way among cloth.
+  ClothWay<Real> clothWay(const Vector3<Real>& y0, const Vector3<Real>& y1) const {
+    return {y0, y1, shapeNow.share, bending};
   }
   /// The same for a path from y0 to y1: of the surface near its start, or else near its end.
   Vector3<Real> bentOnPath(const Vector3<Real>& y0, const Vector3<Real>& y1) const {
     if (!shapeNow.field) return Vector3<Real>::Zero();
-    return bent(shapeNow.field->isNear(y0) ? y0 : y1);
+    return bent(shapeNow.isNear(y0) ? y0 : y1);
   }
-  /// Of the surface near a place that is at p when the step starts [m/s].
-  Vector3<Real> velocityAt(const Vector3<Real>& p) const {
+  /// Of the surface near a place that is at p when the step starts [m/s]; `way`: how far it moves in the
+  /// step, seen from what carries the body [m].
+  Vector3<Real> velocityAt(const Vector3<Real>& p) const { return velocityAt(p, bent(atStart(p))); }
+  Vector3<Real> velocityAt(const Vector3<Real>& p, const Vector3<Real>& way) const {
     const Vector3<Real> arm = p - positionNow, q = turn.vec();
     const Vector3<Real> across = Real(2) * q.cross(arm);
-    return velocity + (turn.w() * across + q.cross(across) + rotationNext * bent(atStart(p))) / seconds;
+    return velocity + (turn.w() * across + q.cross(across) + rotationNext * way) / seconds;
   }
 };
+
+/// Of each particle, if the body is cloth; else none. At the step's start.
+template <class Real>
+std::vector<ClothList<Real>> clothLists(const BodyStep<Real>& step, const Field<Real>& positions,
+                                        const Field<Real>& velocities);
 
 /// What all bodies together ask of a particle: weight v = momentum, added to its mass and right-hand side;
 /// and the heaviest of what they ask, which rubs.

@@ -35,8 +35,8 @@ struct Sheet {
         points.push_back(at(double(i) / kCells, double(j) / kCells, t).cast<Real>());
     return points;
   }
-  static std::vector<std::array<std::uint32_t, 3>> triangles() {
-    std::vector<std::array<std::uint32_t, 3>> all;
+  static std::vector<ClothTriangle> triangles() {
+    std::vector<ClothTriangle> all;
     for (std::uint32_t j = 0; j < kCells; ++j) {
       for (std::uint32_t i = 0; i < kCells; ++i) {
         const std::uint32_t a = j * (kCells + 1) + i, b = a + 1, c = a + kCells + 1, d = c + 1;
@@ -51,7 +51,7 @@ struct Sheet {
 // How far above the triangle that is over or under y, along Y; none: not a number.
 template <class Real>
 double heightAbove(const Cloth<Real>& cloth, const Vector& y) {
-  for (const auto& triangle : cloth.triangles) {
+  for (const ClothTriangle& triangle : Sheet::triangles()) {
     const Vector a = cloth.points[triangle[0]].template cast<double>();
     const Vector ab = cloth.points[triangle[1]].template cast<double>() - a;
     const Vector ac = cloth.points[triangle[2]].template cast<double>() - a, way = y - a;
@@ -61,6 +61,12 @@ double heightAbove(const Cloth<Real>& cloth, const Vector& y) {
     if (v >= 0 && w >= 0 && v + w <= 1) return way.y() - v * ab.y() - w * ac.y();
   }
   return std::numeric_limits<double>::quiet_NaN();
+}
+
+// A list of which nothing is missing.
+template <class Real>
+ClothList<Real> everything(const std::vector<ClothTriangle>& triangles) {
+  return {.reach = Real(1e3), .triangles = triangles};
 }
 
 struct Counts {
@@ -81,7 +87,8 @@ Counts throwAt(const Sheet& sheet, double speed) {
   for (int step = 0; step < 6; ++step) {
     const double t = 0.05 * step;
     const auto points = sheet.pointsAt<Real>(t), next = sheet.pointsAt<Real>(t + kStep);
-    const Cloth<Real> cloth{triangles, points, next}, after{triangles, next, next};
+    const ClothList<Real> all = everything<Real>(triangles);
+    const Cloth<Real> cloth{points, next, {&all, &all}}, after{next, next, {&all, &all}};
     for (int k = 0; k < 40; ++k) {
       const double side = uniform(0, 1) < 0.5 ? -1 : 1;
       Vector start = sheet.at(uniform(0.15, 0.85), uniform(0.15, 0.85), t);
@@ -89,8 +96,9 @@ Counts throwAt(const Sheet& sheet, double speed) {
       if (nearestOfCloth<Real>(cloth, 0, start.cast<Real>()).distance < Real(kKept)) continue;
       const Vector way = Vector(uniform(-1, 1), -side * uniform(0, 1.5), uniform(-1, 1)).normalized() * speed;
       const Vector carried(sheet.speed * kStep, 0, 0), end = start + carried + way * kStep;
-      const auto kept =
-          keptOff<Real>(cloth, {start.cast<Real>(), end.cast<Real>(), Real(0), Real(1)}, Real(kKept));
+      const ClothWay<Real> whole{start.cast<Real>(), end.cast<Real>(), Real(0), Real(1)};
+      const ClothList<Real> list = clothList<Real>(cloth, triangles, whole, kClothListed);
+      const auto kept = keptOff<Real>({points, next, {&list, &list}}, whole, Real(kKept));
       const Vector place = kept.place.template cast<double>();
       ++counts.all;
       counts.would += heightAbove(after, end) * side < 0;
@@ -130,14 +138,16 @@ TEST(ClothContact, WhatBeginsNearerStaysOnItsSide) {
   const Sheet sheet;
   const auto triangles = Sheet::triangles();
   const auto points = sheet.pointsAt<double>(0), next = sheet.pointsAt<double>(kStep);
-  const Cloth<double> cloth{triangles, points, next}, after{triangles, next, next};
+  const ClothList<double> all = everything<double>(triangles);
+  const Cloth<double> cloth{points, next, {&all, &all}}, after{next, next, {&all, &all}};
   for (const double side : {-1.0, 1.0}) {
     for (const double above : {1e-5, 1e-4, 3e-4}) {
       Vector start = sheet.at(0.42, 0.57, 0);
       start.y() += side * above - heightAbove(cloth, start);
       const double before = nearestOfCloth<double>(cloth, 0, start).distance;
       const Vector end = start + Vector(0.002, -0.03 * side, 0.001);
-      const auto kept = keptOff<double>(cloth, {start, end, 0, 1}, kKept);
+      const ClothList<double> list = clothList<double>(cloth, triangles, {start, end, 0, 1}, kClothListed);
+      const auto kept = keptOff<double>({points, next, {&list, &list}}, {start, end, 0, 1}, kKept);
       EXPECT_GT(heightAbove(after, kept.place) * side, 0) << above;
       EXPECT_GT(nearestOfCloth<double>(after, 0, kept.place).distance, before - 3e-5) << above;
     }
