@@ -148,6 +148,25 @@ float massAt(int k, float next) {
 }
 bool isPinnedAt(int k) { return first + k < rootCount(); }
 
+bool isOfCloth(BodyRest body) {
+#ifdef RINGLET_BENDING
+  return isCloth(body);
+#else
+  return false;
+#endif
+}
+
+/// The body, as the particles k and l know it.
+BodyStep knownAt(BodyStep body, int k, int l) {
+#ifdef RINGLET_BENDING
+  uint at = strand.firstParticle + first;
+  if (kCloth)
+    body.rest.lists = uint[2](clothListOf(body.rest, at + k, parameters.particleCount),
+                              clothListOf(body.rest, at + l, parameters.particleCount));
+#endif
+  return body;
+}
+
 struct NextParticle {  // first particle of the next lane
   vec3 p;
   vec3 v;
@@ -156,8 +175,9 @@ struct NextParticle {  // first particle of the next lane
 
 // Adds a body's pushes on the edge from particle k to l, at the end that touches first or between the ends;
 // or, if k = l, on particle k, but for the next lane's first, which that lane asks. Returns whether it touches.
-bool askOf(BodyStep body, int k, int l, NextParticle next, vec3 edgeBefore, inout uint touched,
+bool askOf(BodyStep anywhere, int k, int l, NextParticle next, vec3 edgeBefore, inout uint touched,
            inout uint asked) {
+  BodyStep body = knownAt(anywhere, k, l);
   float T = stepSeconds();
   bool isOne = k == l;
   vec3 a = RINGLET_PICK(p, next.p, k);
@@ -168,8 +188,18 @@ bool askOf(BodyStep body, int k, int l, NextParticle next, vec3 edgeBefore, inou
   vec3 c0 = placeAtStart(body, c);
   vec3 a1 = placeAtEnd(body, a + T * va);
   vec3 c1 = placeAtEnd(body, c + T * vc);
-  Touch touch = traceEdge(body.rest, body.before.field, a0, a1 - bentOnPath(body, a0, a1), c0,
-                          c1 - bentOnPath(body, c0, c1));
+  Touch touch;
+#ifdef RINGLET_BENDING
+  bool isOnCloth = isOne && isCloth(body.rest);
+  ClothTouch cloth;
+  if (isOnCloth) {
+    cloth = traceCloth(body, a0, a1, 0.0, body.rest.rounding);
+    touch = Touch(cloth.found, !cloth.found, Surface(cloth.gap, cloth.normal), cloth.place,
+                  a0 + cloth.at * cloth.way, 0.0, 0.0);
+  } else
+#endif
+    touch = traceEdge(body.rest, body.before.field, a0, a1 - bentOnPath(body, a0, a1), c0,
+                      c1 - bentOnPath(body, c0, c1));
   touched |= touch.passes ? 0 : 1;
   bool isDeep = isOne && touch.surface.distance < -kDeep;
   vec3 n = outward(body, touch.surface.normal);
@@ -177,6 +207,9 @@ bool askOf(BodyStep body, int k, int l, NextParticle next, vec3 edgeBefore, inou
   vec2 shares = isOne ? vec2(1, 0) : vec2(1.0 - touch.along, touch.along);
   vec3 from = shares.x * a + shares.y * c;
   vec3 u = surfaceVelocityAt(body, from, bendingAtStart(body, placeAtStart(body, from)), T);
+#ifdef RINGLET_BENDING
+  if (isOnCloth) u = bodyVelocityAt(body, from, T) + rotate(body.after.rotation, cloth.way) / T;
+#endif
   float least = dot(n, u) + leastParting(touch, T);
   float deficit = least - dot(n, shares.x * va + shares.y * vc);
   bool touches = isOne ? !touch.passes : touch.found;
@@ -232,9 +265,10 @@ bool findPushes(uint step) {
           vec3 position = RINGLET_LOOK_AT(p, next.p, part, j);
           vec3 velocity = RINGLET_LOOK_AT(v, next.v, part, j);
           vec3 place = placeAtStart(body, position);
-          Bending bending = bendingAtStart(body, place);
+          BodyStep here = knownAt(body, k, k);
+          Bending bending = bendingAtStart(here, place);
           float way = T * length(velocity - surfaceVelocityAt(body, position, bending, T));
-          float distance = surfaceAt(body.rest, body.before.field, place, bending).distance;
+          float distance = surfaceAt(here.rest, body.before.field, place, bending).distance;
           float left = distance - 1.001 * way - 2.0 * kTouchDistance - bendingRoom(body, bending);
           isBuried = isBuried && k < kMostBuried && distance < -kOutside;
           bool mayTouch = k < RUN ? isFree(k) : k == RUN && isEdge(RUN - 1) && !isPinnedAt(RUN);
@@ -308,22 +342,25 @@ void keepParticlesOut(uint step, Room room, bool isDone) {
           int k = int(part) * kPart + j;
           vec3 y1 = placeAtEnd(body, RINGLET_LOOK_AT(p, vec3(0), part, j));
           vec3 y0 = placeAtStart(body, RINGLET_LOOK_AT(pStart, vec3(0), part, j));
-          Bending bending = bendingAtStart(body, y0);
+          BodyStep here = knownAt(body, k, k);
+          Bending bending = bendingAtStart(here, y0);
           float way = length(y1 - bent(body, bending) - y0);
-          bool isNear = surfaceAt(body.rest, body.after.field, y1).distance <=
-                        1.001 * way + 2.0 * kTouchDistance + bendingRoom(body, bending);
+          float distance = bending.cloth.distance - way;  // of cloth, at least
+          if (!isOfCloth(body.rest)) distance = surfaceAt(here.rest, body.after.field, y1).distance;
+          bool isNear = distance <= 1.001 * way + 2.0 * kTouchDistance + bendingRoom(body, bending);
           if (k < RUN && isFree(k) && isNear) bits |= 1u << (k - begin);
         }
       } while (++part < kLookParts && !fillsWord(part));
       if (bits != 0) do {
         int k = begin + findLSB(bits);
         bits &= bits - 1;
+        BodyStep here = knownAt(body, k, k);
         vec3 start = RINGLET_PICK(pStart, vec3(0), k);
         vec3 y0 = placeAtStart(body, start);
-        KeptOut kept = keptOut(body, y0, placeAtEnd(body, RINGLET_PICK(p, vec3(0), k)));
+        KeptOut kept = keptOut(here, y0, placeAtEnd(body, RINGLET_PICK(p, vec3(0), k)));
         vec3 place = outOfBody(body, kept.place);
         vec3 n = outward(body, kept.normal);
-        vec3 u = surfaceVelocityAt(body, start, bendingAtStart(body, y0), T);
+        vec3 u = surfaceVelocityAt(body, start, bendingAtStart(here, y0), T);
         vec3 slowed = slowedInward(RINGLET_PICK(v, vec3(0), k) - u, n,
                                    dot(n, place - RINGLET_PICK(p, vec3(0), k)), T);
         if (kept.moved) {
@@ -367,18 +404,20 @@ void keepEdgesOut(uint step, Room room, bool isDone) {
       [[dont_unroll]] do {
         [[unroll]] for (int j = 0; j < kPart; ++j) {
           int k = int(part) * kPart + j;
-          vec3 here = RINGLET_LOOK_AT(p, pNext, part, j);
-          float distance = surfaceAt(body.rest, body.after.field, placeAtEnd(body, here)).distance;
-          bool isNear = distance + distanceBefore <= 1.001 * length(here - placeBefore);
+          vec3 place = RINGLET_LOOK_AT(p, pNext, part, j);
+          BodyRest here = knownAt(body, k, k).rest;
+          float distance = surfaceAt(here, body.after.field, placeAtEnd(body, place)).distance;
+          bool isNear = distance + distanceBefore <= 1.001 * length(place - placeBefore);
           if (k > 0 && k <= RUN && isEdge(k - 1) && isNear) bits |= 1u << (k - before - 1);
           distanceBefore = distance;
-          placeBefore = here;
+          placeBefore = place;
         }
       } while (++part < kLookParts && !fillsWord(part));
       if (bits != 0) do {
         int k = before + findLSB(bits);
         bits &= bits - 1;
-        EdgeSurface deepest = edgeDistance(body.rest, body.after.field, placeAtEnd(body, RINGLET_PICK(p, pNext, k)),
+        BodyStep edge = knownAt(body, k, k + 1);
+        EdgeSurface deepest = edgeDistance(edge.rest, body.after.field, placeAtEnd(body, RINGLET_PICK(p, pNext, k)),
                                            placeAtEnd(body, RINGLET_PICK(p, pNext, k + 1)));
         if (!deepest.isWithin || deepest.surface.distance >= 0.0) continue;
         vec3 n = outward(body, deepest.surface.normal);
@@ -388,7 +427,7 @@ void keepEdgesOut(uint step, Room room, bool isDone) {
         vec3 start =
             shares.x * RINGLET_PICK(pStart, startNext, k) + shares.y * RINGLET_PICK(pStart, startNext, k + 1);
         vec3 velocity = shares.x * RINGLET_PICK(v, vNext, k) + shares.y * RINGLET_PICK(v, vNext, k + 1);
-        Bending bending = bendingAtStart(body, placeAtStart(body, start));
+        Bending bending = bendingAtStart(edge, placeAtStart(body, start));
         vec3 slowed = slowedInward(velocity - surfaceVelocityAt(body, start, bending, T), n, outBy, T);
         int end = 0;
         do {

@@ -82,6 +82,25 @@ struct EdgeSurface {
   vec3 place;
   float nearest;  // smallest distance of the ends and the place [m]
 };
+/// At a place of an edge; side: the sum of the normals at its ends. Only cloth has two sides: where the edge dips into
+/// it, the way back to that of its ends.
+Surface surfaceBetween(BodyRest body, float field, vec3 y, vec3 side) {
+  Surface surface = surfaceAt(body, field, y);
+#ifdef RINGLET_BENDING
+  bool dips = dot(side, side) > kOneSide && dot(surface.normal, side) < 0.0;
+  if (isCloth(body) && dips)
+    surface = Surface(-surface.distance - 2.0 * body.rounding, -surface.normal);
+#endif
+  return surface;
+}
+/// Whether the edge goes from one side to the other there, so that there is no way out.
+bool goesThrough(BodyRest body, Surface surface, vec3 side) {
+#ifdef RINGLET_BENDING
+  return isCloth(body) && dot(side, side) <= kOneSide && surface.distance + body.rounding < kThrough;
+#else
+  return false;
+#endif
+}
 EdgeSurface edgeDistance(BodyRest body, float field, vec3 a, vec3 b) {
   vec3 edge = b - a;
   Surface atA = surfaceAt(body, field, a);
@@ -92,7 +111,8 @@ EdgeSurface edgeDistance(BodyRest body, float field, vec3 a, vec3 b) {
   // First where its end slopes meet, which is the place far from a thin body; then as a cubic, which fits
   // near a round one.
   float first = clamp((atB.distance - slopeB - atA.distance) / min(slopeA - slopeB, -1e-20), 0.0, 1.0);
-  Surface there = surfaceAt(body, field, a + first * edge);
+  vec3 side = atA.normal + atB.normal;
+  Surface there = surfaceBetween(body, field, a + first * edge, side);
   float slope = dot(there.normal, edge);
   float rest = 1.0 - first;
   bool isBefore = slope > 0.0;
@@ -101,7 +121,8 @@ EdgeSurface edgeDistance(BodyRest body, float field, vec3 a, vec3 b) {
   float along = isWithin ? (isBefore ? first * least : first + rest * least)
                          : (atA.distance < atB.distance ? 0.0 : 1.0);
   vec3 place = a + along * edge;
-  Surface surface = surfaceAt(body, field, place);
+  Surface surface = surfaceBetween(body, field, place, isWithin ? side : vec3(0));
+  isWithin = isWithin && !goesThrough(body, surface, side);
   return EdgeSurface(isWithin, along, surface, place, min(min(atA.distance, atB.distance), surface.distance));
 }
 
@@ -173,7 +194,14 @@ struct KeptOut {
   vec3 place;
   vec3 normal;
 };
+#ifdef RINGLET_BENDING
+#include "equations/cloth_contact.glsl"
+#endif
+
 KeptOut keptOut(BodyStep body, vec3 y0, vec3 y1) {
+#ifdef RINGLET_BENDING
+  if (isCloth(body.rest)) return keptOff(body, y0, y1);
+#endif
   Touch touch = traceParticle(body.rest, body.before.field, y0, y1 - bentOnPath(body, y0, y1));
   vec3 held = touch.place + bent(body, touch.place);
   // Onto the plane where it touched, then out of what curves beyond it; if that fails, back to the place of

@@ -22,5 +22,5 @@ void main() {
   for (int i = 0; i < 3; ++i) ways[i] = pointAt(mesh, to, corners[i]) - pointAt(mesh, from, corners[i]);
   vec3 way = (ways[0] + ways[1] + ways[2]) / 3.0;
   float spread = max(length(ways[0] - way), max(length(ways[1] - way), length(ways[2] - way)));
-  meshWays[mesh.firstWay + from * mesh.triangleCount + triangle] = vec4(way, spread);
+  meshWays[mesh.firstWay + from * mesh.waysOfCopy + triangle] = vec4(way, spread);
 }

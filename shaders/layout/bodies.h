@@ -20,9 +20,11 @@ RINGLET_CONSTANT uint kBindGridPairTexels = 22;  // four pairs each
 RINGLET_CONSTANT uint kBindAirTexels = 23;       // 4 a step
 RINGLET_CONSTANT uint kBindWindModeTexels = 24;  // 2 a mode
 RINGLET_CONSTANT uint kBindBodyKeys = 42;    // uint[corners of bodies that bend]: see meshKey
-RINGLET_CONSTANT uint kBindBodyWays = 43;    // vec4[triangles of bodies that bend]: see BodyPose::field
+RINGLET_CONSTANT uint kBindBodyWays = 43;    // vec4[triangles of bodies that bend], see BodyPose::field; of cloth its
+                                             // tree, see mesh_fields.h
 RINGLET_CONSTANT uint kBindBodyKeyTexels = 44;  // four keys each
 RINGLET_CONSTANT uint kBindBodyWayTexels = 45;
+RINGLET_CONSTANT uint kBindClothLists = 46;  // ClothList[cloth][particles]
 
 RINGLET_CONSTANT uint kWindWaves = 12;   // modes of the turbulent wind; a multiple of 4
 
@@ -39,15 +41,31 @@ struct BodyRest {
   uint shape;         // kShape...
   // Of a body that bends: of copy 0 of its field.
   uint firstKey;
-  uint triangleBits;  // of a key, see MeshRest
+  uint triangleBits;  // of a key, see MeshRest; of cloth the levels of its tree
   uint firstWay;
   uint triangleCount;
-  uint unused[2];
+  // Of cloth: lists[0] is which of all cloth it is. A kernel that asks what a particle or the two ends of an edge know
+  // of it puts the numbers of their lists here (ClothList).
+  uint lists[2];
 };
 RINGLET_CONSTANT uint kShapeBox = 0;
 RINGLET_CONSTANT uint kShapePlane = 1;
 RINGLET_CONSTANT uint kShapeGrid = 2;
 RINGLET_CONSTANT uint kShapeField = 3;  // of a body that bends: grids made anew while it moves, see mesh_fields.h
+RINGLET_CONSTANT uint kShapeCloth = 4;  // of cloth, which has hair on both sides: its triangles, in a tree
+
+// The triangles of cloth that a particle may meet in a step (shared/cloth_lists.glsl).
+RINGLET_CONSTANT uint kClothListed = 31;  // at most
+struct ClothList {
+  vec3 from;    // where its way starts, in the frame of what carries the cloth [m]
+  float reach;  // how far from the way all triangles are known [m]
+  vec3 along;   // the way, in the frame that moves on with the cloth there [m]
+  float field;  // of the cloth at the step's start, see BodyPose
+  vec3 way;     // of that frame, which is that of the nearest place, to the cloth's next copy [m]
+  float distance;  // of the nearest place at the step's start, at most kClothReach [m]
+  uint count;
+  uint triangles[kClothListed];
+};
 
 // The pose of a body, relative to the head's origin, along world axes. Pose 0 is the frame's start, 1 + k the
 // end of step k.

@@ -15,9 +15,16 @@ RINGLET_CONSTANT uint kBindMeshKeys = 3;        // uint[corners]: the nearest tr
 RINGLET_CONSTANT uint kBindMeshPairs = 4;       // uint[corners]: crossings of columns (mesh_splat), then pairs of
                                                 // distances, see gridDistance (mesh_columns)
 RINGLET_CONSTANT uint kBindMeshWays = 5;        // vec4[triangles]: xyz: to the next copy [m]; w: by how much the
-                                                // way of a corner differs, at most [m]
+                                                // way of a corner differs, at most [m]; of cloth its tree
 // Triangles and points as texels, with this added to the binding number:
 RINGLET_CONSTANT uint kMeshTexels = 10;
+
+// Cloth has no grid; its triangles are the leaves of a tree of boxes, each box about its triangles on their way from
+// one copy to the next. Node 1 is the root, node k has the nodes 2 k and 2 k + 1; node k of level l has the triangles
+// from ((k - 2^l) triangleCount) >> l to ((k - 2^l + 1) triangleCount) >> l. In the buffer of ways a copy of it is
+//   vec4[2 nodes]: low corner, and the longest way of its points to the next copy [m]; high corner; node 0 is empty
+//   vec4[3 triangles]: corners
+RINGLET_CONSTANT uint kMostInLeaf = 4;
 
 // Corners know their distance to triangles that are closer than this [cells].
 RINGLET_CONSTANT float kMeshBand = 2.0;
@@ -38,7 +45,9 @@ struct MeshRest {
   uint firstWay;     // of copy 0
   uint triangleBits; // of a key: the numbers of its triangles are below 2^triangleBits
   float snap;        // steps of a cell to which crossings round points
-  uint unused[3];
+  uint levels;       // of cloth: of its tree, without the root
+  uint waysOfCopy;   // words of a copy in the buffer of ways [vec4]
+  uint unused;
 };
 
 struct MeshParameters {

@@ -29,6 +29,7 @@ RINGLET_CONSTANT uint kSpecFields = 17;
 RINGLET_CONSTANT uint kSpecGoalShape = 18;
 RINGLET_CONSTANT uint kSpecFalls = 19;
 RINGLET_CONSTANT uint kSpecProfiles = 20;
+RINGLET_CONSTANT uint kSpecCloth = 21;
 
 // Bindings of the strand_step kernels, all in set 0.
 RINGLET_CONSTANT uint kBindPositions = 0;   // vec4[particles]: position relative to the head [m], 0

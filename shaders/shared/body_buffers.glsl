@@ -24,7 +24,7 @@ BodyRest bodyRest(uint b) {
   vec4 origin = vectorAt(bodyTexels, 6 * b + 2);
   return BodyRest(box.xyz, box.w, vectorAt(bodyTexels, 6 * b + 1), origin.xyz, origin.w,
                   uint[3](grid.x, grid.y, grid.z), grid.w, uintBitsToFloat(form.x), form.y, form.z, form.w, field.x,
-                  field.y, uint[2](0, 0));
+                  field.y, uint[2](field.z, 0));
 }
 vec4 bodyBounds(uint b) { return kTexels ? vectorAt(bodyTexels, 6 * b + 1) : bodies[b].bounds; }
 BodyPose bodyPose(uint i) {

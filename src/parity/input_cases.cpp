@@ -177,13 +177,14 @@ void addSurroundings(std::vector<InputCase>& cases) {
   cases.push_back(step("cut on a turned head", cut, kOneStepAmongBodies));
 }
 
-// Two bodies that bend, each with a field of its own, and one that does not.
+// Two bodies that bend, each with a field of its own, and one that does not; two of cloth, below the hair.
 void addBending(std::vector<InputCase>& cases) {
   ParityCase c{someStrands(), {}, {}, {}};
   c.bodies = {bendingBall(0.1, 0.006), bendingBall(0.08, 0.007), gridBall(0.06, 0.01)};
   for (std::size_t b = 0; b < c.bodies.size(); ++b)
     c.bodies[b].place = {Vec3d{0.1 * std::cos(2.0 * double(b)), -0.22, 0.1 * std::sin(2.0 * double(b))},
                          fromRotationVector(Vec3d{0.3, 0.2, -0.4} * double(b + 1))};
+  for (const double below : {0.5, 0.6}) c.bodies.push_back(sheet(0.2, {0, -below, 0}));
   cases.push_back(step("bodies that bend", c, kOneStepAmongBodies));
 }
 

@@ -5,9 +5,11 @@
 #include <memory>
 #include <numbers>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "ringlet/bodies/make_bending_mesh.h"
 #include "ringlet/scene/body.h"
 
 namespace ringlet::parity {
@@ -67,6 +69,31 @@ inline Body bendingBall(double radius, double cell, Vec3d about = {}) {
       mesh.surface.triangles.push_back(
           {mesh.surface.rims[rim][i], mesh.surface.rims[rim][(i + 1) % kAround], count + rim});
   body.mesh = std::make_shared<const BendingMesh>(std::move(mesh));
+  return body;
+}
+
+/// Cloth: a sheet of 288 triangles, `size` across, about the place, level but for its waves.
+inline Body sheet(double size, Vec3d about = {}) {
+  constexpr std::uint32_t kCells = 12;
+  TriangleMesh mesh;
+  for (std::uint32_t j = 0; j <= kCells; ++j) {
+    for (std::uint32_t i = 0; i <= kCells; ++i) {
+      const double x = (double(i) / kCells - 0.5) * size, z = (double(j) / kCells - 0.5) * size;
+      mesh.points.push_back(about +
+                            Vec3d{x, 0.05 * size * std::sin(9 * x / size) * std::cos(7 * z / size), z});
+    }
+  }
+  for (std::uint32_t j = 0; j < kCells; ++j) {
+    for (std::uint32_t i = 0; i < kCells; ++i) {
+      const std::uint32_t a = j * (kCells + 1) + i, b = a + 1, c = a + kCells + 1, d = c + 1;
+      mesh.triangles.push_back({a, c, b});
+      mesh.triangles.push_back({b, c, d});
+    }
+  }
+  Body body{.name = "cloth", .shape = BodyShape::grid};
+  std::vector<std::string> warnings;
+  const BendingRoom room = bendingRoomOf(mesh.points, {}, 8, true);
+  if (!makeBendingMesh(std::move(mesh), room, body, warnings)) return {};
   return body;
 }
 

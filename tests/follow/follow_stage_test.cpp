@@ -396,7 +396,7 @@ const InputException kUnset[] = {
     {"BodyRest.firstWay", "likewise"},
     {"BodyRest.triangleCount", "likewise"},
     {"BodyRest.friction", "nothing holds hairs that follow back"},
-    {"BodyRest.unused", "unused"},
+    {"BodyRest.lists", "hairs that follow do not see cloth"},
     {"FollowBlend.unused", "unused"},
     {"FollowGuide.unused", "unused"},
 };

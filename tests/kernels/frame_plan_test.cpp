@@ -35,6 +35,7 @@ std::string textOf(const PlannedStage& s) {
   if (s.stage == FrameStage::solve) {
     text += s.pass.withContacts ? s.pass.moves ? " move" : " contacts" : s.withoutBodies ? " bare" : " first";
     if (s.pass.goesOn) text += " goes on";
+    if (s.listsCloth) text += " by cloth";
     if (s.strands != StrandsOf::all) text += s.strands == StrandsOf::border ? " border" : " inner";
   }
   if (s.stage == FrameStage::motion)
@@ -118,6 +119,31 @@ TEST(FramePlan, AFirstSolveWithoutBodiesIsAPassOfItsOwn) {
       "inputs",       "solve 0 bare",     "brought 0, first", "sums 0, first", "means 0",      "solve 0 move",
       "solve 1 bare", "brought 1, first", "sums 1, first",    "means 1",       "solve 1 move", "end"};
   EXPECT_EQ(textsOf(plan), expected);
+}
+
+// The cloth near to hair is found once a step, before the first solve that knows bodies.
+TEST(FramePlan, AmongClothADispatchIsOfOneStep) {
+  EXPECT_EQ(textsOf(stagesOf({.steps = 2, .bends = true, .hasCloth = true})),
+            (std::vector<std::string>{"inputs", "bodies", "solve 0 first by cloth", "solve 1 first by cloth",
+                                      "end"}));
+  const std::vector<std::string> pairs{"inputs",   "bodies",       "solve 0 first by cloth",
+                                       "motion 0", "grid 0",       "lists 0",
+                                       "touch 0",  "solve 0 move", "solve 1 first by cloth",
+                                       "motion 1", "grid 1",       "lists 1",
+                                       "touch 1",  "solve 1 move", "end"};
+  EXPECT_EQ(textsOf(stagesOf({.steps = 2, .contacts = {true, false}, .bends = true, .hasCloth = true})),
+            pairs);
+  for (FrameNeeds needs : everyNeed()) {
+    needs.hasCloth = needs.bends = true;
+    std::vector<std::uint32_t> steps;
+    for (const PlannedStage& stage : stagesOf(needs)) {
+      EXPECT_FALSE(stage.stage == FrameStage::solve && stage.pass.goesOn);
+      if (stage.listsCloth) steps.push_back(stage.step);
+      const bool knowsBodies = stage.stage == FrameStage::solve && !stage.withoutBodies;
+      EXPECT_TRUE(!knowsBodies || (!steps.empty() && steps.back() == stage.step)) << textOf(stage);
+    }
+    for (std::uint32_t step = 0; step < needs.steps; ++step) EXPECT_EQ(std::ranges::count(steps, step), 1);
+  }
 }
 
 TEST(FramePlan, ADividedFrameHasTheStagesOfAWholeOne) {

@@ -28,7 +28,7 @@ const InputException kExceptions[] = {
     {"StepParameters.headCount", "many at once have the bits of each alone: kernels/HairFrames"},
     {"StepParameters.headPoses", "a constant"},
     {"VolumeNumbers.warmth", "a constant"},
-    {"BodyRest.unused", "unused"},
+    {"BodyRest.lists[1]", "kernels write it into their own copies"},
     {"RootPose.position[3]", "unused"},
     {"RootPose.velocity[3]", "unused"},
     {"Sampled", "of hair that is divided: kernels/DividedHair"},

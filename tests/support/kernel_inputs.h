@@ -37,6 +37,7 @@ inline constexpr KernelFamily kKernelFamilies[] = {
     {"pose_", "they hand positions on: follow/DevicePose compares the bits"},
     {"part_", "divided hair has the bits of the whole: kernels/DividedHair"},
     {"mesh_", "grids of bodies that bend, against the reference's: kernels/MeshField"},
+    {"cloth_", "lists of cloth, frames with which agree with the reference: kernels/BendingBodies"},
     {"render_", "pictures, of which the reference has none: tests/render"},
     {"probe_", "no hair: program/conform_probes.cpp has each bit of what they must say"},
 };

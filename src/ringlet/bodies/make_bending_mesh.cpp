@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "ringlet/bodies/close_mesh.h"
+#include "ringlet/bodies/cloth_tree.h"
 #include "ringlet/bodies/mesh_grid.h"
 #include "ringlet/scene/outside_numbers.h"
 
@@ -42,20 +43,42 @@ Bounds widened(const Bounds& box, double share) {
   return {box.low - more, box.high + more};
 }
 
+// One cell: the box in which it stays.
+void makeCloth(const TriangleMesh& first, const Bounds& all, Body& body) {
+  BendingMesh mesh;
+  mesh.isCloth = true;
+  mesh.points = first.points;
+  mesh.surface.triangles = orderedAsTree(first.triangles, first.points);
+  for (std::uint32_t i = 0; i < first.points.size(); ++i) mesh.surface.sources.push_back(i);
+  const Vec3d size = all.high - all.low;
+  mesh.cell = mesh.reach = kFarther * std::max({size.x, size.y, size.z});
+  mesh.counts = {1, 1, 1};
+  mesh.origin = all.middle() - Vec3d{1, 1, 1} * (mesh.cell / 2);
+  body.grid = std::make_shared<const DistanceGrid>(
+      DistanceGrid{mesh.origin, mesh.cell, mesh.counts, std::vector(8, static_cast<float>(mesh.cell))});
+  body.thickness = std::max(body.thickness, kClothThickness);
+  body.mesh = std::make_shared<const BendingMesh>(std::move(mesh));
+}
+
 }  // namespace
 
-BendingRoom bendingRoomOf(std::span<const Vec3d> first, const std::optional<Bounds>& grid, int cells) {
+BendingRoom bendingRoomOf(std::span<const Vec3d> first, const std::optional<Bounds>& grid, int cells,
+                          bool isCloth) {
   Bounds all = Bounds::none();
   for (const Vec3d p : first) all.add(p);
   const Bounds where = grid.value_or(widened(all, 0.25));
   all.add(where.low);
   all.add(where.high);
-  return {where, widened(all, 1), cells};
+  return {where, widened(all, 1), cells, isCloth};
 }
 
 Status makeBendingMesh(TriangleMesh first, const BendingRoom& room, Body& body,
                        std::vector<std::string>& warnings) {
   if (Status checked = checkMesh(first); !checked) return checked;
+  if (room.isCloth) {
+    makeCloth(first, room.all, body);
+    return {};
+  }
   if (room.cells < 8 || room.cells > 256)
     return Error{
         fmt::format("a distance grid of {} cells along its longest side; expected 8 to 256", room.cells)};

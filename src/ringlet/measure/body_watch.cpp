@@ -70,7 +70,12 @@ BodyWatch::BodyWatch(const Groom& groom, std::span<const Body> bodies, int rootC
     : firstPoint_(groom.firstPoint),
       bodies_(bodies.begin(), bodies.end()),
       rootCount_(static_cast<std::size_t>(rootCount)),
-      seen_(groom.points.size() * bodies.size(), kInside) {}
+      seen_(groom.points.size() * bodies.size(), kInside) {
+  // Cloth has no inside.
+  const std::size_t count = groom.points.size();
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (bodies[b].isCloth()) std::fill_n(seen_.begin() + std::ptrdiff_t(b * count), count, kOutside);
+}
 
 // distanceAt: of a place relative to the head's origin [m]; steepest: its slope at most.
 template <class Distance>
@@ -114,9 +119,10 @@ void BodyWatch::look(std::span<const Vec3f> positions, const HeadPose& head, std
              [&](Vec3d place) { return distanceTo(body, poses[b], head.position + place); });
       continue;
     }
-    BentSurface surface(
-        body, poses[b],
-        points.empty() ? std::span<const Vec3d>() : points[bending++].last(body.mesh->points.size()));
+    const std::span<const Vec3d> samples = points.empty() ? std::span<const Vec3d>() : points[bending++];
+    if (body.isCloth()) continue;
+    BentSurface surface(body, poses[b],
+                        points.empty() ? std::span<const Vec3d>() : samples.last(body.mesh->points.size()));
     lookAt(b, positions, 1, [&](Vec3d place) { return surface.distanceTo(head.position + place); });
   }
   ++looks_;

@@ -41,7 +41,7 @@ layout::BodyRest restOf(const Body& body, std::uint32_t firstPair) {
   rest.rounding = static_cast<float>(form.rounding(body) + body.thickness);
   const double radius = std::isfinite(reach) ? reach + body.thickness : kEndless;
   if (body.bends()) {
-    rest.shape = layout::kShapeField;
+    rest.shape = body.isCloth() ? layout::kShapeCloth : layout::kShapeField;
     rest.bounds = packed(middleOf(*body.mesh), radius);
     setGrid(rest, *body.mesh, firstPair);
   } else if (body.shape == BodyShape::grid) {

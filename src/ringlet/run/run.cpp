@@ -194,7 +194,8 @@ Status Run::Work::makeSink() {
     }
     writers_.emplace(scene_, options_, std::move(hairs), done);
   }
-  if (!scene_.bodies.empty()) bodyWatch_.emplace(scene_.groom, scene_.bodies, scene_.settings.rootCount);
+  if (!std::ranges::all_of(scene_.bodies, &Body::isCloth))  // cloth has no inside
+    bodyWatch_.emplace(scene_.groom, scene_.bodies, scene_.settings.rootCount);
   const bool writesFrames = !animationsOf(options_).empty() || options_.writesSheet || events_.written;
   FrameReaders readers{.bodies = bodyWatch_ ? &*bodyWatch_ : nullptr,
                        .observe = {},

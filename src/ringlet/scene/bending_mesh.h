@@ -24,6 +24,10 @@ struct BendingMesh {
   // No point comes further from the grid's middle along any axis [m]; one that does counts as there where
   // insides are told from outsides.
   double reach = 1;
+  // Cloth: hair is kept off both of its sides, whether it is open or closed, and it has no grid: origin, cell
+  // and counts then are the box in which it stays, and its triangles are in the order of orderedAsTree
+  // (bodies/cloth_tree.h).
+  bool isCloth = false;
 
   std::size_t cornerCount() const {
     return (counts[0] + std::size_t{1}) * (counts[1] + std::size_t{1}) * (counts[2] + std::size_t{1});

@@ -56,6 +56,7 @@ struct Body {
   std::optional<Motion> motion{};  // in the world; nullopt: the head carries it
 
   bool bends() const { return shape == BodyShape::grid && mesh != nullptr; }
+  bool isCloth() const { return bends() && mesh->isCloth; }
   /// Its pose in the world, t seconds after the start, with the head at `head`.
   BodyPose poseAt(double t, const HeadPose& head) const;
 };

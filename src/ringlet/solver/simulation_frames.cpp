@@ -2,6 +2,7 @@
 // poses; one recording for each frame in flight.
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "layout/contacts.h"
 #include "layout/strands.h"
@@ -83,6 +84,31 @@ void Simulation::Implementation::dispatchAll(FrameRecording& frame, const Strand
   frame.list.endStage();
 }
 
+// The cloth near to the particles of these dispatches' strands, at the step's start.
+void Simulation::Implementation::listCloth(FrameRecording& frame, const StrandKernels& of,
+                                           std::span<const PlannedDispatch> dispatches) const {
+  if (!of.cloth || dispatches.empty()) return;
+  frame.pace.beginStage(frame.list, "cloth_near");
+  const bool isValidated = device().gpu().validationLog() != nullptr;  // as dispatchAll
+  for (const PlannedDispatch& now : dispatches) {
+    const std::uint32_t size = of.cloth->groupSize(), most = (*of.ranges)[now.range].longest;
+    const std::uint64_t invocations = std::uint64_t{device().gpu().properties().maxGroupCount} * size;
+    const auto atOnce =
+        static_cast<std::uint32_t>(std::clamp<std::uint64_t>(invocations / most, 1, UINT32_MAX));
+    layout::StepParameters parameters = parametersOf(of, now, 1);
+    parameters.phases = most;
+    for (std::uint32_t begin = now.strandBegin; begin < now.strandEnd;
+         begin += parameters.strandEnd - begin) {
+      parameters.strandBegin = begin;
+      parameters.strandEnd = begin + std::min(atOnce, now.strandEnd - begin);
+      const std::uint32_t items = (parameters.strandEnd - begin) * most;
+      if (isValidated) frame.list.barrier();
+      frame.list.dispatch(*of.cloth, of.clothBindings[now.range], parameters, (items + size - 1) / size);
+    }
+  }
+  frame.list.endStage();
+}
+
 // Copies results to the host; frames without steps do this too. The copy is a stage of its own only with
 // timestamps: without them a submission's time is divided among its stages, and all of it belongs to
 // stepping. With divided hair every submission copies the control block back (startPart).
@@ -105,6 +131,7 @@ Status Simulation::Implementation::recordSteps(FrameRecording& frame) const {
 }
 
 Status Simulation::Implementation::recordSolve(FrameRecording& frame, const PlannedStage& stage) const {
+  std::vector<std::pair<const StrandKernels*, std::vector<PlannedDispatch>>> planned;
   for (const StrandKernels* of :
        {stage.withoutBodies ? &kernels.firstSolve : &kernels.strands, &kernels.fallen}) {
     const std::size_t bodies = of == &kernels.firstSolve ? 0 : bodyCount();
@@ -117,8 +144,13 @@ Status Simulation::Implementation::recordSolve(FrameRecording& frame, const Plan
         return isBorder != (dispatch.strandEnd <= asset->halo->borderCount);
       });
     }
-    dispatchAll(frame, *of, *dispatches);
+    planned.emplace_back(of, std::move(*dispatches));
   }
+  if (stage.listsCloth) {
+    for (const auto& [of, dispatches] : planned) listCloth(frame, *of, dispatches);
+    frame.list.barrier();
+  }
+  for (const auto& [of, dispatches] : planned) dispatchAll(frame, *of, dispatches);
   return {};
 }
 
@@ -208,6 +240,7 @@ std::vector<PlannedStage> Simulation::Implementation::planStages() const {
       .contacts = contacts.kinds(),
       .sleeps = stillness.sleeps(),
       .bends = inputs.get<BodiesInput>().bends(),
+      .hasCloth = kernels.strands.cloth != nullptr,
       .predictsWithoutBodies = kernels.firstSolve.areThere(),
       .isDivided = contacts.divided.has_value(),
       .samples = contacts.pairs && contacts.pairs->samples()};

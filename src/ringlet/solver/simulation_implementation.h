@@ -157,6 +157,8 @@ struct Simulation::Implementation {
   Status record(FrameRecording& frame, const PlannedStage& stage) const;
   Status record(FrameRecording& frame, std::span<const PlannedStage> stages) const;
   Status recordFrame(FrameRecording& frame) const;
+  void listCloth(FrameRecording& frame, const StrandKernels& of,
+                 std::span<const PlannedDispatch> dispatches) const;
   void dispatchAll(FrameRecording& frame, const StrandKernels& of,
                    std::span<const PlannedDispatch> dispatches) const;
   FrameSlot::Recorded wantedRecording() const {

@@ -72,6 +72,7 @@ StrandKernelOptions Simulation::Implementation::kernelOptions() const {
           .residual = asset->choice.residual,
           .bodies = uses.bodies,
           .bends = inputs.get<BodiesInput>().bends(),
+          .clothTurns = inputs.get<BodiesInput>().isCloth() ? clothTurns(asset->limits) : 0,
           .air = settings.air.on,
           .turbulence = inputs.get<AirInput>().isTurbulent(),
           .movingRoots = uses.roots,
@@ -111,6 +112,12 @@ Status Simulation::Implementation::create(StrandKernels& of, const StrandKernelO
   auto made = createStrandKernels(device().gpu(), shapes, options);
   if (!made) return made.error();
   of.kernels = std::move(*made);
+  of.cloth = nullptr;
+  if (options.bodies && options.clothTurns > 0) {
+    auto cloth = createClothKernel(device().gpu(), options);
+    if (!cloth) return cloth.error();
+    of.cloth = std::move(*cloth);
+  }
   of.areOfHeads = options.heads;
   of.areFallen = options.falls;
   of.kernelOf.clear();
@@ -196,6 +203,7 @@ gpu::BufferTable Simulation::Implementation::bufferTable(std::size_t chunk) cons
 
 Status Simulation::Implementation::bindKernels(StrandKernels& of) {
   of.bindings.clear();
+  of.clothBindings.clear();
   of.ofHeads.clear();
   for (std::size_t r = 0; r < of.ranges->size(); ++r) {
     const std::size_t chunk = (*of.ranges)[r].chunk;
@@ -204,6 +212,10 @@ Status Simulation::Implementation::bindKernels(StrandKernels& of) {
     auto bound = gpu::Bindings::create(*of.kernels[of.kernelOf[r]], table);
     if (!bound) return bound.error();
     of.bindings.push_back(std::move(*bound));
+    if (!of.cloth) continue;
+    auto ofCloth = gpu::Bindings::create(*of.cloth, table);
+    if (!ofCloth) return ofCloth.error();
+    of.clothBindings.push_back(std::move(*ofCloth));
   }
   return {};
 }

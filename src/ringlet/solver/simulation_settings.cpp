@@ -82,10 +82,12 @@ Status Simulation::Implementation::change(std::span<const Body> bodies, std::spa
   if (Status status = finishFrames(); !status) return status;
   auto made = BodiesInput::create(inputSource(), bodies, places, head().now);
   if (!made) return made.error();
-  const bool bent = std::exchange(inputs.get<BodiesInput>(), std::move(*made)).bends();
+  const BodiesInput before = std::exchange(inputs.get<BodiesInput>(), std::move(*made));
+  const BodiesInput& now = inputs.get<BodiesInput>();
   stillness.wake();
   frames.forgetRecordings();
-  return bent == inputs.get<BodiesInput>().bends() ? bindKernels() : makeKernels();
+  const bool same = before.bends() == now.bends() && before.isCloth() == now.isCloth();
+  return same ? bindKernels() : makeKernels();
 }
 
 Status Simulation::setBodies(std::span<const Body> bodies, std::span<const BodyPose> places) {

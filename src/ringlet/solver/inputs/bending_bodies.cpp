@@ -57,6 +57,7 @@ Status BendingBodies::createFields(gpu::Device& device, const gpu::Buffer& point
   auto made = MeshFields::create(device, meshes, copies_, points, pairs, firstPair);
   if (!made) return made.error();
   fields_.emplace(std::move(*made));
+  std::uint32_t cloth = 0;
   for (std::size_t m = 0; m < bodies_.size(); ++m) {
     const layout::MeshRest& mesh = fields_->rests()[m];
     layout::BodyRest& rest = rests[bodies_[m].body];
@@ -65,9 +66,10 @@ Status BendingBodies::createFields(gpu::Device& device, const gpu::Buffer& point
     std::copy(std::begin(mesh.cells), std::end(mesh.cells), rest.cells);
     rest.firstPair = mesh.firstPair;
     rest.firstKey = mesh.firstKey;
-    rest.triangleBits = mesh.triangleBits;
+    rest.triangleBits = bodies_[m].shape->isCloth ? mesh.levels : mesh.triangleBits;
     rest.firstWay = mesh.firstWay;
     rest.triangleCount = mesh.triangleCount;
+    if (bodies_[m].shape->isCloth) rest.lists[0] = cloth++;
   }
   return {};
 }
@@ -99,9 +101,12 @@ std::vector<BendingBodies::Surfaces> BendingBodies::samplesOf(const FrameContext
   return samples;
 }
 
-// As many as keep the way of each point near a grid within a cell from one to the next.
+// As many as keep the way of each point near a grid within a cell from one to the next; of cloth, which moves
+// straight between them, as many as there are samples.
 std::uint32_t BendingBodies::buildCount(std::span<const Surfaces> samples, std::size_t steps) const {
   double most = 0;
+  for (const Mesh& mesh : bodies_)
+    if (mesh.shape->isCloth) most = double(samples.size());
   for (std::size_t m = 0; m < bodies_.size(); ++m) {
     const Mesh& mesh = bodies_[m];
     for (std::size_t i = 0; i < mesh.now.size(); ++i) {

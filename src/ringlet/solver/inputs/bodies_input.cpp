@@ -29,8 +29,9 @@ Result<BodiesInput> BodiesInput::create(const InputSource& from, std::span<const
   PackedBodies packed = packBodies(bodies);
   const std::uint64_t poseBytes = (mostSteps + std::uint64_t{1}) * bodies.size() * sizeof(layout::BodyPose);
   if (Status status = self.stage(from, poseBytes, "body poses"); !status) return status.error();
-  if (Status status = self.makeGrids(from, packed); !status) return status.error();
   self.bodies_.assign(bodies.begin(), bodies.end());
+  if (Status status = self.makeGrids(from, packed); !status) return status.error();
+  if (Status status = self.makeLists(from); !status) return status.error();
   self.packed_ = std::move(packed.rests);
   self.now_.assign(places.begin(), places.end());
   if (places.empty())
@@ -57,6 +58,20 @@ Status BodiesInput::makeGrids(const InputSource& from, PackedBodies& bodies) {
   auto rests = createFilled(from.device, bodies.rests, "bodies");
   if (!rests) return rests.error();
   rests_.emplace(std::move(*rests));
+  return {};
+}
+
+// Kernels among bodies that bend have them bound, even if none is cloth.
+Status BodiesInput::makeLists(const InputSource& from) {
+  if (!bends()) return {};
+  const auto cloth = static_cast<std::uint64_t>(std::ranges::count_if(bodies_, &Body::isCloth));
+  for (const GroomChunk& chunk : from.chunks) {
+    const std::uint64_t count = std::max<std::uint64_t>(cloth * chunk.particleCount(), 1);
+    auto made = gpu::Buffer::create(from.device, count * sizeof(layout::ClothList), gpu::BufferKind::storage,
+                                    "the triangles of cloth near to particles");
+    if (!made) return made.error();
+    lists_.push_back(std::move(*made));
+  }
   return {};
 }
 
@@ -113,7 +128,7 @@ void BodiesInput::jump(const FrameContext& frame) {
     now_[b] = poses.empty() ? bodies_[b].poseAt(0, frame.end()) : poses[poses.size() - count + b];
 }
 
-gpu::BufferTable BodiesInput::bufferTable(std::size_t) const {
+gpu::BufferTable BodiesInput::bufferTable(std::size_t chunk) const {
   using namespace layout;
   gpu::BufferTable table{{kBindBodies, *rests_},         {kBindBodyPoses, staged_[0].seen()},
                          {kBindGridPairs, *pairs_},      {kBindBodyTexels, *rests_},
@@ -122,7 +137,8 @@ gpu::BufferTable BodiesInput::bufferTable(std::size_t) const {
     table.insert({{kBindBodyKeys, fields->keys()},
                   {kBindBodyKeyTexels, fields->keys()},
                   {kBindBodyWays, fields->ways()},
-                  {kBindBodyWayTexels, fields->ways()}});
+                  {kBindBodyWayTexels, fields->ways()},
+                  {kBindClothLists, lists_[chunk]}});
   }
   return table;
 }
@@ -134,7 +150,10 @@ std::uint64_t BodiesInput::largestBuffer() const {
 }
 std::uint64_t BodiesInput::bytes() const {
   const MeshFields* fields = bending_.fields();
-  return FrameInput::bytes() + rests_->bytes() + pairs_->bytes() + (fields ? fields->bytes() : 0);
+  std::uint64_t bytes =
+      FrameInput::bytes() + rests_->bytes() + pairs_->bytes() + (fields ? fields->bytes() : 0);
+  for (const gpu::Buffer& lists : lists_) bytes += lists.bytes();
+  return bytes;
 }
 
 }  // namespace ringlet

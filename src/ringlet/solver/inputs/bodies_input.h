@@ -1,6 +1,7 @@
 // BodiesInput: bodies with their distance grids, and their poses from step to step.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -27,6 +28,8 @@ class BodiesInput : public FrameInput {
   std::size_t count() const { return bodies_.size(); }
   /// Whether a body bends.
   bool bends() const { return bending_.areThere(); }
+  /// Whether one of them is cloth.
+  bool isCloth() const { return std::ranges::any_of(bodies_, &Body::isCloth); }
   /// What the device does in the frame of this slot for the fields of bodies that bend, behind record().
   const BendingBodies::Work& fieldWork(std::size_t slot) const { return work_[slot]; }
   void recordFields(gpu::CommandList& list, std::size_t slot) const { bending_.record(list, work_[slot]); }
@@ -47,6 +50,9 @@ class BodiesInput : public FrameInput {
   explicit BodiesInput(BendingBodies bending) : bending_(std::move(bending)) {}
   Status makeGrids(const InputSource& from, PackedBodies& bodies);
 
+  Status makeLists(const InputSource& from);
+
+  std::vector<gpu::Buffer> lists_;      // ClothList[cloth][particles], by chunk; empty if no body bends
   std::optional<gpu::Buffer> rests_;    // staged: BodyPose[1 + step][body]; points of bodies that bend
   std::unique_ptr<gpu::Buffer> pairs_;  // where it stays: bending_ writes into it
   BendingBodies bending_;

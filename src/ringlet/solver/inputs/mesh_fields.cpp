@@ -7,6 +7,7 @@
 
 #include "ringlet/base/packed.h"
 #include "ringlet/gpu/device_buffers.h"
+#include "ringlet_shaders/mesh_boxes_plain.h"
 #include "ringlet_shaders/mesh_columns_plain.h"
 #include "ringlet_shaders/mesh_splat_plain.h"
 #include "ringlet_shaders/mesh_ways_plain.h"
@@ -16,6 +17,13 @@ namespace {
 
 constexpr std::uint32_t kMostInMeshGroup = 64;
 constexpr std::uint32_t kLeastTriangleBits = 8;  // a float counts the steps that are left exactly
+
+// Of the tree of cloth below its root: leaves of at most kMostInLeaf triangles, but not more than 2^15
+// leaves.
+std::uint32_t treeLevels(std::uint32_t triangleCount) {
+  const std::uint32_t leaves = (triangleCount + layout::kMostInLeaf - 1) / layout::kMostInLeaf;
+  return std::min(15u, static_cast<std::uint32_t>(std::bit_width(leaves - 1)));
+}
 
 layout::MeshRest restOf(const BendingMesh& mesh) {
   layout::MeshRest rest{};
@@ -28,6 +36,8 @@ layout::MeshRest restOf(const BendingMesh& mesh) {
   rest.triangleBits =
       std::max(kLeastTriangleBits, static_cast<std::uint32_t>(std::bit_width(mesh.surface.triangles.size())));
   rest.snap = static_cast<float>(mesh.stepsPerCell());
+  rest.levels = treeLevels(rest.triangleCount);
+  rest.waysOfCopy = mesh.isCloth ? (4u << rest.levels) + 3 * rest.triangleCount : rest.triangleCount;
   return rest;
 }
 
@@ -50,17 +60,18 @@ Result<MeshFields> MeshFields::create(gpu::Device& device, std::span<const Bendi
                                       const gpu::Buffer& pairs, std::uint32_t firstPair) {
   std::vector<layout::MeshRest> rests;
   std::vector<layout::uvec4> triangles;
-  std::uint32_t corners = 0, pointCount = 0;
+  std::uint32_t corners = 0, pointCount = 0, ways = 0;
   for (const BendingMesh* mesh : meshes) {
     layout::MeshRest& rest = rests.emplace_back(restOf(*mesh));
     rest.firstTriangle = static_cast<std::uint32_t>(triangles.size());
     rest.firstPoint = pointCount;
     rest.firstKey = corners;
     rest.firstPair = firstPair + corners;
-    rest.firstWay = copies * rest.firstTriangle;
+    rest.firstWay = ways;
     for (const auto& [a, b, c] : mesh->surface.triangles) triangles.push_back({a, b, c, 0});
     pointCount += copies * rest.pointCount;
     corners += copies * rest.corners;
+    ways += copies * rest.waysOfCopy;
   }
   auto restBuffer = createFilled(device, rests, "meshes that bend");
   if (!restBuffer) return restBuffer.error();
@@ -69,12 +80,13 @@ Result<MeshFields> MeshFields::create(gpu::Device& device, std::span<const Bendi
   auto keys = gpu::Buffer::create(device, corners * sizeof(std::uint32_t), gpu::BufferKind::storage,
                                   "the triangles nearest to their grids' corners");
   if (!keys) return keys.error();
-  auto ways = gpu::Buffer::create(device, copies * triangles.size() * sizeof(layout::vec4),
-                                  gpu::BufferKind::storage, "how their triangles move");
-  if (!ways) return ways.error();
-  MeshFields self(std::move(*restBuffer), std::move(*triangleBuffer), std::move(*keys), std::move(*ways),
+  auto wayBuffer = gpu::Buffer::create(device, ways * sizeof(layout::vec4), gpu::BufferKind::storage,
+                                       "how their triangles move");
+  if (!wayBuffer) return wayBuffer.error();
+  MeshFields self(std::move(*restBuffer), std::move(*triangleBuffer), std::move(*keys), std::move(*wayBuffer),
                   pairs);
   self.rests_ = std::move(rests);
+  for (const BendingMesh* mesh : meshes) self.isCloth_.push_back(mesh->isCloth);
   self.mostGroups_ = device.properties().maxGroupCount;
 
   using namespace layout;
@@ -89,7 +101,8 @@ Result<MeshFields> MeshFields::create(gpu::Device& device, std::span<const Bendi
                                  {kMeshTexels + kBindMeshPoints, points}};
   for (const auto& description : {describeMesh(device, "mesh_splat", k_mesh_splat_plain, texels),
                                   describeMesh(device, "mesh_columns", k_mesh_columns_plain, texels),
-                                  describeMesh(device, "mesh_ways", k_mesh_ways_plain, texels)}) {
+                                  describeMesh(device, "mesh_ways", k_mesh_ways_plain, texels),
+                                  describeMesh(device, "mesh_boxes", k_mesh_boxes_plain, texels)}) {
     auto kernel = gpu::BoundKernel::create(device, description, buffers);
     if (!kernel) return kernel.error();
     self.kernels_.push_back(std::move(*kernel));
@@ -97,7 +110,7 @@ Result<MeshFields> MeshFields::create(gpu::Device& device, std::span<const Bendi
   return self;
 }
 
-void MeshFields::dispatch(gpu::CommandList& list, std::size_t kernel, layout::MeshParameters parameters,
+void MeshFields::dispatch(gpu::CommandList& list, Kernel kernel, layout::MeshParameters parameters,
                           std::uint32_t groups) const {
   while (parameters.first < groups) {
     const std::uint32_t now = std::min(groups - parameters.first, mostGroups_);
@@ -115,19 +128,25 @@ void MeshFields::record(gpu::CommandList& list, std::uint32_t first, std::uint32
     list.fillZero(*pairs_, bytes, (rest.firstPair + before) * 4);
   }
   list.barrier();
-  const auto groupsOf = [&](std::size_t kernel, std::uint32_t items) {
+  const auto groupsOf = [&](Kernel kernel, std::uint32_t items) {
     const std::uint32_t size = kernels_[kernel].groupSize();
     return (items + size - 1) / size;
   };
   for (std::uint32_t mesh = 0; mesh < rests_.size(); ++mesh) {
     const std::uint32_t triangles = rests_[mesh].triangleCount;
-    dispatch(list, 0, {mesh, first, count, 0}, count * triangles);
-    dispatch(list, 2, {mesh, 0, last + 1, 0}, groupsOf(2, (last + 1) * triangles));
+    if (isCloth_[mesh]) {
+      dispatch(list, boxes, {mesh, 0, last + 1, 0},
+               groupsOf(boxes, (last + 1) * (2u << rests_[mesh].levels)));
+      continue;
+    }
+    dispatch(list, splat, {mesh, first, count, 0}, count * triangles);
+    dispatch(list, pathways, {mesh, 0, last + 1, 0}, groupsOf(pathways, (last + 1) * triangles));
   }
   list.barrier();
   for (std::uint32_t mesh = 0; mesh < rests_.size(); ++mesh) {
-    const std::uint32_t columns = (rests_[mesh].cells[1] + 1) * (rests_[mesh].cells[2] + 1);
-    dispatch(list, 1, {mesh, first, count, 0}, groupsOf(1, count * columns));
+    if (isCloth_[mesh]) continue;
+    const std::uint32_t rows = (rests_[mesh].cells[1] + 1) * (rests_[mesh].cells[2] + 1);
+    dispatch(list, columns, {mesh, first, count, 0}, groupsOf(columns, count * rows));
   }
   list.barrier();
 }

@@ -1,5 +1,5 @@
-// MeshFields: distance grids of meshes that bend, made on the device from points at several times
-// (shaders/kernels/mesh_*.comp). Mirrored by reference/kernels/mesh_field.h.
+// MeshFields: distance grids of meshes that bend, and trees of cloth, made on the device from points at
+// several times (shaders/kernels/mesh_*.comp). Mirrored by reference/kernels/mesh_field.h.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +25,9 @@ class MeshFields {
                                    std::uint32_t copies, const gpu::Buffer& points, const gpu::Buffer& pairs,
                                    std::uint32_t firstPair = 0);
 
-  /// Makes grids first .. last of every mesh, and the ways from copy 0 to 1 and so on to `last`. Ends with a
-  /// barrier. Cost: the corners within the band of each triangle, and all corners twice.
+  /// Makes grids first .. last of every mesh, and the ways from copy 0 to 1 and so on to `last`; of cloth all
+  /// trees up to `last`. Ends with a barrier. Cost: the corners within the band of each triangle, and all
+  /// corners twice; of a tree each triangle once a level.
   void record(gpu::CommandList& list, std::uint32_t first, std::uint32_t last) const;
   /// Makes copy `from` copy 0. Ends with a barrier.
   void moveToFirst(gpu::CommandList& list, std::uint32_t from) const;
@@ -36,13 +37,14 @@ class MeshFields {
   /// uint[copies][corners of a mesh]: what meshKey says of each corner.
   const gpu::Buffer& keys() const { return keys_; }
   /// vec4[copies][triangles of a mesh]: how far each moves to the next copy, and how much its corners differ
-  /// [m].
+  /// [m]; of cloth its tree (layout/mesh_fields.h).
   const gpu::Buffer& ways() const { return ways_; }
   std::uint64_t bytes() const {
     return restBuffer_.bytes() + triangles_.bytes() + keys_.bytes() + ways_.bytes();
   }
 
  private:
+  enum Kernel : std::size_t { splat, columns, pathways, boxes };
   MeshFields(gpu::Buffer rests, gpu::Buffer triangles, gpu::Buffer keys, gpu::Buffer ways,
              const gpu::Buffer& pairs)
       : restBuffer_(std::move(rests)),
@@ -52,14 +54,15 @@ class MeshFields {
         pairs_(&pairs) {}
   /// `groups` workgroups of a kernel over the mesh and copies of `parameters`, in as many dispatches as that
   /// takes.
-  void dispatch(gpu::CommandList& list, std::size_t kernel, layout::MeshParameters parameters,
+  void dispatch(gpu::CommandList& list, Kernel kernel, layout::MeshParameters parameters,
                 std::uint32_t groups) const;
 
   std::vector<layout::MeshRest> rests_;
+  std::vector<bool> isCloth_;
   gpu::Buffer restBuffer_, triangles_, keys_, ways_;
   const gpu::Buffer* pairs_;
   std::uint32_t mostGroups_ = 0;
-  std::vector<gpu::BoundKernel> kernels_;  // splat, columns, ways
+  std::vector<gpu::BoundKernel> kernels_;  // by Kernel
 };
 
 }  // namespace ringlet

@@ -112,6 +112,10 @@ void spreadOverGroups(std::vector<PlannedDispatch>& plan, const StrandRange& ran
 
 }  // namespace
 
+std::uint32_t clothTurns(const DeviceLimits& limits) {
+  return static_cast<std::uint32_t>(loopBudget(limits) / std::max(limits.subgroupSize, 1u));
+}
+
 std::uint32_t groupCountOf(const PlannedDispatch& dispatch, const StrandShape& shape, std::uint32_t groupSize,
                            std::uint32_t heads) {
   const std::uint32_t strandsPerGroup = groupSize / shape.lanes;

@@ -36,6 +36,10 @@ struct SolvePass {
 /// No limit on a dispatch besides the device's.
 inline constexpr std::uint64_t kAnyParticleSteps = ~std::uint64_t{0};
 
+/// Loop turns that a lane may spend on cloth in a dispatch: its share of all, for a CPU driver counts the
+/// turns of the lanes of a subgroup together.
+std::uint32_t clothTurns(const DeviceLimits& limits);
+
 /// What a dispatch may be.
 struct DispatchRoom {
   const DeviceLimits& limits;

@@ -18,6 +18,8 @@ class FramePlanner {
       if (needs_.bends) add({.stage = FrameStage::bodies, .barrier = false});
       if (needs_.contacts.any()) {
         contactFrame();
+      } else if (needs_.hasCloth) {
+        for (std::uint32_t step = 0; step < needs_.steps; ++step) solve({.step = step, .moves = true});
       } else {
         add({.stage = FrameStage::steps, .barrier = false});
       }
@@ -35,7 +37,7 @@ class FramePlanner {
         const bool isLast = iteration == needs_.iterations;
         if (iteration > 1) nextContacts(step);
         if (needs_.contacts.volume) add({.stage = FrameStage::means, .step = step});
-        solve({step, true, isLast, isLast && step + 1 < needs_.steps});
+        solve({step, true, isLast, isLast && step + 1 < needs_.steps}, iteration == 1);
       }
     }
   }
@@ -70,16 +72,17 @@ class FramePlanner {
 
   // A solve pass, and the measurements after it. A part steps its border strands first, and steps the others
   // while the border's rows are being exchanged.
-  void solve(const SolvePass& pass) {
+  // isFirst: the first with contacts in its step.
+  void solve(const SolvePass& pass, bool isFirst = false) {
     const bool endsFrame = pass.moves && !pass.goesOn;
     const Rows rows = pass.withContacts && !pass.moves ? Rows::solve : Rows::step;
     if (needs_.isDivided && needs_.contacts.pairs && !endsFrame) {
-      solveOf(pass, StrandsOf::border);
+      solveOf(pass, StrandsOf::border, isFirst);
       add({.stage = FrameStage::rowsOut, .step = pass.step, .rows = rows});
       exchange({.step = pass.step, .rows = rows, .exchange = Exchange::rows});
-      solveOf(pass, StrandsOf::inner);
+      solveOf(pass, StrandsOf::inner, isFirst);
     } else {
-      solveOf(pass, StrandsOf::all);
+      solveOf(pass, StrandsOf::all, isFirst);
     }
     if (!endsFrame) measure(pass.goesOn ? pass.step + 1 : pass.step, rows == Rows::step);
   }
@@ -95,15 +98,17 @@ class FramePlanner {
     exchange({.step = step, .exchange = isStart ? Exchange::starts : Exchange::sums});
   }
 
-  // The strand dispatches of a pass. If the first solve leaves bodies out, a pass that goes on becomes two
-  // dispatches.
-  void solveOf(const SolvePass& pass, StrandsOf strands) {
+  // The strand dispatches of a pass. If the first solve leaves bodies out, or the cloth near to hair is found
+  // at the step's start, a pass that goes on becomes two dispatches.
+  void solveOf(const SolvePass& pass, StrandsOf strands, bool isFirst) {
     PlannedStage one{.stage = FrameStage::solve, .step = pass.step, .pass = pass, .strands = strands};
-    if (!needs_.predictsWithoutBodies) return add(one);
-    one.withoutBodies = !pass.withContacts;
+    one.withoutBodies = needs_.predictsWithoutBodies && !pass.withContacts;
+    const bool isFirstAmongBodies = needs_.predictsWithoutBodies ? isFirst : !pass.withContacts;
+    one.listsCloth = needs_.hasCloth && isFirstAmongBodies;
+    if (!needs_.predictsWithoutBodies && !needs_.hasCloth) return add(one);
     one.pass.goesOn = false;
     add(one);
-    if (pass.goesOn) solveOf({.step = pass.step + 1}, strands);
+    if (pass.goesOn) solveOf({.step = pass.step + 1}, strands, false);
   }
 
   void exchange(PlannedStage stage) {

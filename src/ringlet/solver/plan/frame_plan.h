@@ -20,7 +20,7 @@ namespace ringlet {
 enum class FrameStage : std::uint8_t {
   inputs,    // copies what the host wrote for the frame to the device
   bodies,    // fields of bodies that bend, for the times of the frame
-  steps,     // all steps of strands without contacts
+  steps,     // all steps of strands without contacts, if there is no cloth
   solve,     // a pass of the strand kernels
   motion,    // how far contact particles have moved since their lists were made
   grid,      // sorts contact particles into a search grid, if lists are to be made
@@ -64,6 +64,7 @@ struct PlannedStage {
   SolvePass pass{};
   StrandsOf strands = StrandsOf::all;
   bool withoutBodies = false;  // a solve by the kernels without bodies
+  bool listsCloth = false;     // of a step: before it, the cloth near to particles is found
   Rows rows = Rows::step;      // for rowsOut, rowsIn and the exchange of rows
   Exchange exchange = Exchange::starts;
 };
@@ -75,6 +76,8 @@ struct FrameNeeds {
   ContactKinds contacts{};
   bool sleeps = false;  // hair at rest: no steps
   bool bends = false;   // a body bends
+  bool hasCloth =
+      false;  // and one is cloth: a dispatch is of one step, for which the cloth near to hair is found
   // The first solve of a step leaves bodies out; for hair as a volume among bodies. It is a prediction for
   // the coupling; neighbours see what bodies do one step late (kContactWarmth).
   bool predictsWithoutBodies = false;

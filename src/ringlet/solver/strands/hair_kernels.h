@@ -25,10 +25,13 @@ struct StrandKernels {
   std::vector<std::shared_ptr<const gpu::Kernel>> kernels{};  // one per shape
   std::vector<std::size_t> kernelOf{};                        // index into kernels, by range
   std::vector<gpu::Bindings> bindings{};                      // one per range
-  bool areOfHeads = false;                                    // StrandKernelOptions::heads
-  bool areFallen = false;                                     // StrandKernelOptions::falls
-  std::map<std::uint32_t, BoundHeads> ofHeads{};              // by number of heads; for a single head
-                                                              // `bindings` are used
+  std::shared_ptr<const gpu::Kernel>
+      cloth{};  // lists the cloth near to their particles; null: there is no cloth
+  std::vector<gpu::Bindings> clothBindings{};     // one per range
+  bool areOfHeads = false;                        // StrandKernelOptions::heads
+  bool areFallen = false;                         // StrandKernelOptions::falls
+  std::map<std::uint32_t, BoundHeads> ofHeads{};  // by number of heads; for a single head
+                                                  // `bindings` are used
 
   const gpu::Bindings& bindingsOf(std::uint32_t range, std::uint32_t heads) const {
     return heads > 1 ? ofHeads.at(heads).bindings[range] : bindings[range];

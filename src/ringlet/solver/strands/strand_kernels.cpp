@@ -10,6 +10,7 @@
 
 #include "layout/strands.h"
 #include "ringlet/solver/strands/strand_modules.h"
+#include "ringlet_shaders/cloth_near_plain.h"
 
 namespace ringlet {
 namespace {
@@ -85,6 +86,7 @@ gpu::KernelDescription describeStrandKernel(const StrandShape& shape, const Stra
                            {layout::kSpecTurbulent, options.turbulence ? 1u : 0u},
                            {layout::kSpecGoals, options.goals ? 1u : 0u},
                            {layout::kSpecFields, options.fields ? 1u : 0u},
+                           {layout::kSpecCloth, options.clothTurns},
                            {layout::kSpecFalls, options.falls ? 1u : 0u},
                            {layout::kSpecGoalShape, options.goals && options.goalShape ? 1u : 0u}};
   if (options.contacts) {
@@ -99,6 +101,21 @@ gpu::KernelDescription describeStrandKernel(const StrandShape& shape, const Stra
     description.subgroupSize = options.subgroupSize;
   }
   return description;
+}
+
+Result<std::shared_ptr<const gpu::Kernel>> createClothKernel(gpu::Device& device,
+                                                             const StrandKernelOptions& options) {
+  gpu::KernelDescription description;
+  description.name = "cloth_near";
+  description.spirv = k_cloth_near_plain;
+  description.pushConstantBytes = sizeof(layout::StepParameters);
+  description.groupSize = options.groupSize;
+  description.constants = {{layout::kSpecGroupSize, options.groupSize},
+                           {layout::kSpecTexels, options.texels ? 1u : 0u},
+                           {layout::kSpecContacts, options.contacts ? 1u : 0u},
+                           {layout::kSpecCloth, options.clothTurns},
+                           {layout::kSpecFalls, options.falls ? 1u : 0u}};
+  return gpu::Kernel::create(device, description);
 }
 
 Result<std::vector<std::shared_ptr<const gpu::Kernel>>> createStrandKernels(

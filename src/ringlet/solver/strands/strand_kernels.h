@@ -37,14 +37,15 @@ struct StrandKernelOptions {
   bool bendVaries = false;    // bend stiffness varies along some strand
   bool profiles = false;      // edges have factors (EdgeFactors); together with bendVaries
   bool taps = false;
-  bool contacts = false;  // the solve is iterated, with contacts
-  bool pairs = true;      // with contacts: there are pairs
-  bool volume = false;    // with contacts: there is a volume
-  bool texels = false;    // records are read as texels (gpu::BindingKind)
-  bool residual = false;  // measure the residual of the velocity solve
-  bool bodies = false;    // there are bodies
-  bool bends = false;     // one of them bends
-  bool air = false;       // drag of the air acts
+  bool contacts = false;         // the solve is iterated, with contacts
+  bool pairs = true;             // with contacts: there are pairs
+  bool volume = false;           // with contacts: there is a volume
+  bool texels = false;           // records are read as texels (gpu::BindingKind)
+  bool residual = false;         // measure the residual of the velocity solve
+  bool bodies = false;           // there are bodies
+  bool bends = false;            // one of them bends
+  std::uint32_t clothTurns = 0;  // loop turns that a lane may spend on cloth; 0: no body is cloth
+  bool air = false;              // drag of the air acts
   bool turbulence = false;
   bool movingRoots = false;        // strands have root poses
   bool forces = false;             // external forces act on particles
@@ -61,6 +62,11 @@ gpu::KernelDescription describeStrandKernel(const StrandShape& shape, const Stra
 
 /// One kernel for each shape, in order. Those not compiled yet are made on threads of their own: lavapipe
 /// takes half a second to read each, whatever its cache holds.
+/// The kernel that lists the cloth near to particles of strands for these kernels
+/// (shaders/kernels/cloth_near.comp).
+Result<std::shared_ptr<const gpu::Kernel>> createClothKernel(gpu::Device& device,
+                                                             const StrandKernelOptions& options);
+
 Result<std::vector<std::shared_ptr<const gpu::Kernel>>> createStrandKernels(
     gpu::Device& device, std::span<const StrandShape> shapes, const StrandKernelOptions& options);
 
