@@ -104,10 +104,11 @@ struct MeshGiven {
   int cells = 64;
   bool deforms = false;
   std::optional<Bounds> grid{};
+  bool isCloth = false;
 };
 
 BodyObject bendingBody(MeshGiven given, Body body) {
-  const BendingRoom room = bendingRoomOf(given.mesh.points, given.grid, given.cells);
+  const BendingRoom room = bendingRoomOf(given.mesh.points, given.grid, given.cells, given.isCloth);
   std::vector<std::string> warnings;
   withoutGil([&] { demand(makeBendingMesh(std::move(given.mesh), room, body, warnings)); });
   return checked(std::move(body), std::move(warnings));
@@ -116,6 +117,7 @@ BodyObject bendingBody(MeshGiven given, Body body) {
 BodyObject meshBody(MeshGiven given, const Stand& stand, const py::kwargs& numbers) {
   Body body = bodyOf(formOf(BodyShape::grid), stand, {}, numbers);
   if (given.deforms) return bendingBody(std::move(given), std::move(body));
+  if (given.isCloth) throw py::value_error("sides=\"both\" is for a mesh with deforms=True");
   if (given.grid) throw py::value_error("grid is for a mesh with deforms=True");
   MeshGrid made = withoutGil([&] { return valueOf(makeDistanceGrid(given.mesh, {.cells = given.cells})); });
   body.grid = std::make_shared<const DistanceGrid>(std::move(made.grid));
@@ -184,19 +186,24 @@ void addMesh(py::class_<BodyObject>& bodies) {
       "A closed surface: points (points, 3) [m], triangles (triangles, 3) indices, counterclockwise seen from "
       "outside, as read_mesh and make_head_mesh give them. cells: of its distance grid, along its longest side, "
       "8 to 256. deforms: it bends, and every frame gives its points (Hair.step); grid: then the box in which "
-      "hair can meet it, (low, high) in its own frame; None: about all of it. Takes about a second. Its numbers, "
-      "by name:" +
+      "hair can meet it, (low, high) in its own frame; None: about all of it. sides: out, or both for cloth that "
+      "deforms, open or closed, whose both sides hold hair off, by its thickness, 0.5 mm at least. Takes about a "
+      "second. Its numbers, by name:" +
       numbersText<Body>(bodyNumbersOf(formOf(BodyShape::grid)));
   bodies.def_static(
       "mesh",
       [](const py::object& points, const py::object& triangles, int cells, bool deforms,
-         const py::object& grid, const std::string& name, const py::object& position,
-         const py::object& rotation, const std::optional<MotionObject>& motion, const py::kwargs& numbers) {
-        return meshBody({meshOf(points, triangles), cells, deforms, boundsOf(grid)},
+         const py::object& grid, const std::string& sides, const std::string& name,
+         const py::object& position, const py::object& rotation, const std::optional<MotionObject>& motion,
+         const py::kwargs& numbers) {
+        if (sides != "out" && sides != "both")
+          throw py::value_error(fmt::format("sides must be out or both, got {}", sides));
+        return meshBody({meshOf(points, triangles), cells, deforms, boundsOf(grid), sides == "both"},
                         standOf(name, position, rotation, motion), numbers);
       },
       py::arg("points"), py::arg("triangles"), py::kw_only(), py::arg("cells") = 64,
-      py::arg("deforms") = false, py::arg("grid") = py::none(), RINGLET_STAND, doc.c_str());
+      py::arg("deforms") = false, py::arg("grid") = py::none(), py::arg("sides") = "out", RINGLET_STAND,
+      doc.c_str());
 }
 
 void addBody(py::module_& module) {

@@ -116,8 +116,12 @@ TEST_F(CBending, AScenesBodyHasTheBitsOfTheLibrary) {
   expectInvalid(ringlet_scene_frame_points(scene.handle, 0, 0, nullptr, nullptr), "vertex_count is NULL");
 }
 
+// Whether it is cloth.
+class CHostsBody : public CBending, public testing::WithParamInterface<bool> {};
+INSTANTIATE_TEST_SUITE_P(Sides, CHostsBody, testing::Bool());
+
 // The ball of the host, handed over as vertices and then frame by frame.
-TEST_F(CBending, AHostsBodyHasTheBitsOfTheLibrary) {
+TEST_P(CHostsBody, HasTheBitsOfTheLibrary) {
   const Groom groom = randomGroom({12, 12}, 1);
   Vec3d middle{};
   for (const Vec3f& p : groom.points) middle += Vec3d(p) / double(groom.points.size());
@@ -134,14 +138,15 @@ TEST_F(CBending, AHostsBodyHasTheBitsOfTheLibrary) {
   body.shape = "mesh", body.vertices = vertices.data(), body.triangles = first.triangles[0].data();
   body.vertex_count = static_cast<std::uint32_t>(first.points.size());
   body.triangle_count = static_cast<std::uint32_t>(first.triangles.size());
-  body.cells = 16, body.deforms = 1;
+  body.cells = 16, body.deforms = 1, body.both_sides = GetParam();
   const Bounds grid{middle - Vec3d{0.1, 0.1, 0.1}, middle + Vec3d{0.1, 0.1, 0.1}};
   const double low[] = {grid.low.x, grid.low.y, grid.low.z}, high[] = {grid.high.x, grid.high.y, grid.high.z};
   std::copy_n(low, 3, body.grid_low), std::copy_n(high, 3, body.grid_high);
 
   Body own{.name = "body 0", .shape = BodyShape::grid};
   std::vector<std::string> warnings;
-  const Status made = makeBendingMesh(first, bendingRoomOf(first.points, grid, 16), own, warnings);
+  const Status made =
+      makeBendingMesh(first, bendingRoomOf(first.points, grid, 16, GetParam()), own, warnings);
   ASSERT_TRUE(made) << made.error().message;
   EXPECT_EQ(warnings, std::vector<std::string>());
   const auto asset = HairAsset::build(device(), groom, {}, {});
@@ -189,6 +194,10 @@ TEST_F(CBending, AHostsBodyHasTheBitsOfTheLibrary) {
     EXPECT_EQ(ringlet_hair_set_bodies(c.hairs[0], &body, 1), RINGLET_ERROR);
     EXPECT_NE(std::string(ringlet_error_message()).find(part), std::string::npos) << ringlet_error_message();
   };
+  if (GetParam()) {
+    body.deforms = 0;
+    return refused("expected deforms 1");
+  }
   body.grid_low[1] = body.grid_high[1];
   refused("a grid without room");
   body.grid_low[1] = 0, body.cells = 7;

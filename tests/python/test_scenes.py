@@ -207,8 +207,25 @@ def test_a_mesh_that_deforms_takes_its_points_from_each_frame(device):
     for wrong, part in ({"grid": grid[::-1]}, "without room"), ({"cells": 4}, "8 to 256"), ({"grid": [1, 2, 3]}, "two corners"):
         with pytest.raises((ValueError, ringlet.Error), match=part):
             ringlet.Body.mesh(*ball(0), **{"deforms": True, "cells": 16, **wrong})
-    with pytest.raises(ValueError, match="deforms=True"):
-        ringlet.Body.mesh(*ball(0), cells=16, grid=grid)
+    for wrong, part in ({"grid": grid}, "deforms=True"), ({"sides": "both"}, "deforms=True"), ({"sides": "in"}, "out or both"):
+        with pytest.raises(ValueError, match=part):
+            ringlet.Body.mesh(*ball(0), cells=16, **wrong)
+
+
+def test_cloth_holds_hair_off_both_of_its_sides(device):
+    groom = ringlet.make_swatch(columns=2, rows=2, particles=12)
+    low, high = groom.points.min(0), groom.points.max(0)
+    corners = np.array([[x, 0, z] for z in (low[2] - 1, high[2] + 1) for x in (low[0] - 1, high[0] + 1)])
+    triangles = [(0, 2, 1), (1, 2, 3)]
+    asset = ringlet.Asset(device, groom)
+    for side, start, sweep in (1, low[1] - 0.01, 0.03), (-1, high[1] + 0.01, -0.03):
+        sheet = corners + [0, start, 0]
+        body = ringlet.Body.mesh(sheet, triangles, deforms=True, sides="both", name="cloth")
+        hair = ringlet.Hair(asset, bodies=[body])
+        for frame in range(5):  # it goes through half of the strands' length and beyond their tips
+            hair.step(body_points=[(sheet + [0, sweep * (frame + 1) / 5, 0])[None]])
+        heights = hair.positions()[:, 1].reshape(4, 12)[:, 2:]
+        assert (side * (heights - (start + sweep)) > 0.0004).all()
 
 
 @pytest.mark.parametrize("name", ["cut", "fields", "pre-roll"])

@@ -152,6 +152,27 @@ TEST(BendingBodyScene, ItsGridGoesAlongWithIt) {
   EXPECT_LT(bent, 0.05);
 }
 
+// Cloth is taken as it is: all of it, with its holes, and no nearer than 0.5 mm.
+TEST(BendingBodyScene, ClothHasNoGrid) {
+  const auto folder = folderWithBall("bending_body_cloth");
+  const std::string body = "file = 'ball.obj'\ncache = 'ball.pc2'\ndeforms = true\nunit = 1\n";
+  const auto closed = loadedWith(folder, body), cloth = loadedWith(folder, body + "sides = 'both'\n");
+  ASSERT_TRUE(closed && cloth);
+  EXPECT_FALSE(closed->bodies[0].isCloth());
+  ASSERT_TRUE(cloth->bodies[0].isCloth());
+  EXPECT_EQ(cloth->bodies[0].mesh->cornerCount(), 8u);
+  EXPECT_EQ(cloth->bodies[0].thickness, 5e-4);
+  const auto &mesh = *cloth->bodies[0].mesh, &other = *closed->bodies[0].mesh;
+  EXPECT_EQ(mesh.points.size(), other.points.size());
+  auto triangles = mesh.surface.triangles, others = other.surface.triangles;
+  EXPECT_NE(triangles, others);  // in the order of its tree
+  std::ranges::sort(triangles), std::ranges::sort(others);
+  EXPECT_EQ(triangles, others);
+  const auto thick = loadedWith(folder, body + "sides = 'both'\nthickness = 0.002\n");
+  ASSERT_TRUE(thick);
+  EXPECT_EQ(thick->bodies[0].thickness, 0.002);
+}
+
 TEST(BendingBodyScene, RefusesKeysThatDoNotGoTogether) {
   const auto folder = folderWithBall("bending_body_keys");
   const std::string file = "file = 'ball.obj'\n", bending = file + "cache = 'ball.pc2'\ndeforms = true\n";
@@ -163,9 +184,11 @@ TEST(BendingBodyScene, RefusesKeysThatDoNotGoTogether) {
   for (const char* key :
        {"scale = 2", "position = [0, 1, 0]", "rotate_degrees = [0, 1, 0]", "bind = 'world'"})
     refused(bending + key + "\n", "of a mesh that deforms");
-  for (const char* key :
-       {"cache = 'ball.pc2'", "cache_fps = 24", "animation = '0'", "start = 1", "region = 'all'"})
+  for (const char* key : {"cache = 'ball.pc2'", "cache_fps = 24", "animation = '0'", "start = 1",
+                          "region = 'all'", "sides = 'both'"})
     refused(file + key + "\n", "expected deforms = true beside it");
+  for (const char* key : {"cells = 20", "region = 'all'"})
+    refused(bending + "sides = 'both'\n" + key + "\n", "of cloth");
   refused(file + "deforms = true\n", "the body ball");  // an OBJ file alone has no motion
 }
 

@@ -107,10 +107,11 @@ Status makeGrid(const ringlet_body& from, Body& body) {
     std::optional<Bounds> grid = Bounds{{from.grid_low[0], from.grid_low[1], from.grid_low[2]},
                                         {from.grid_high[0], from.grid_high[1], from.grid_high[2]}};
     if (*grid == Bounds{}) grid.reset();
-    const BendingRoom room = bendingRoomOf(mesh.points, grid, cells);
+    const BendingRoom room = bendingRoomOf(mesh.points, grid, cells, from.both_sides != 0);
     std::vector<std::string> warnings;  // there is no place for them
     return makeBendingMesh(std::move(mesh), room, body, warnings);
   }
+  if (from.both_sides) return Error{"a mesh has hair on both sides only if it deforms; expected deforms 1"};
   auto grid = makeDistanceGrid(mesh, {.cells = cells});
   if (!grid) return grid.error();
   body.grid = std::make_shared<const DistanceGrid>(std::move(grid->grid));

@@ -198,6 +198,9 @@ typedef struct ringlet_body {
   /* Of a mesh that bends: the box in which hair can meet it, in the frame of its pose, which has the grid;
      all 0 means all of the mesh and some room about it (makeBendingMesh in bodies/make_bending_mesh.h). */
   double grid_low[3], grid_high[3];
+  /* 1 for cloth: a mesh that bends, open or closed, whose both sides hold hair off, by `thickness`, 0.5 mm at
+     least. It has no grid. */
+  int32_t both_sides;
 } ringlet_body;
 
 typedef struct ringlet_initial_state {

@@ -525,6 +525,15 @@ std::span<const SceneField<SceneBody>> bodyFields() {
          .member = &B::region,
          .choices = "hair, all",
          .onlyWith = "mesh"},
+        {.key = "sides",
+         .unit = "",
+         .standard = "",
+         .effect =
+             "Sides of a mesh that deforms that hold hair off. out: those its triangles face; it is closed. both: "
+             "it is cloth, open or closed, which has no grid (cells, region), and keeps thickness, at least 0.0005 m.",
+         .member = &B::sides,
+         .choices = "out, both",
+         .onlyWith = "mesh"},
         {.key = "position",
          .unit = "m",
          .standard = "",

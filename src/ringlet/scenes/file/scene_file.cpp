@@ -641,9 +641,14 @@ class SceneReader {
 
   // Keys that only a mesh that deforms has, or only another.
   void checkDeforms(const toml::table& table, const SceneBody& body) {
-    for (const char* key : {"cache", "cache_fps", "animation", "start", "region"})
+    for (const char* key : {"cache", "cache_fps", "animation", "start", "region", "sides"})
       if (const toml::node* node = table.get(key); node && !body.deforms)
         problems_.add(lineOf(*node), fmt::format("found body.{}; expected deforms = true beside it", key));
+    for (const char* key : {"cells", "region"})
+      if (const toml::node* node = table.get(key); node && body.sides == "both")
+        problems_.add(
+            lineOf(*node),
+            fmt::format("found body.{} of cloth (sides = \"both\"), which has no grid; expected none", key));
     if (const toml::node* node = table.get("generate"); node && body.deforms != (body.generate == "bust"))
       problems_.addFound(*node, "body.generate",
                          body.deforms ? "bust: no other generated mesh deforms" : "deforms = true beside it");

@@ -155,6 +155,7 @@ struct SceneBody : Body {
   std::optional<double> framesPerSecond{};
   double start = 0;             // when its first key is [s]
   std::string region = "hair";  // or all: what of it has a grid
+  std::string sides = "out";    // or both: cloth
 
   Vec3d position{}, rotateDegrees{};  // [m]
   std::string bind = "carrier";       // or world, as the groom's

@@ -149,7 +149,7 @@ Status loadBendingBody(const SceneFile& file, std::size_t index, LoadedScene& lo
   for (const std::string& warning : (*read)->warnings())
     loaded.warnings.push_back(fmt::format("{}: {}", scene.file.string(), warning));
   MovingBody moving{index, *read, scene.start, isHeads ? loaded.motion.start : Vec3d{}, body};
-  const bool isAll = scene.region == "all";
+  const bool isCloth = scene.sides == "both", isAll = isCloth || scene.region == "all";
   if (scene.joint.empty() && !scene.moves)
     body.motion = sharedMotion(moving, file.motion.preRollSeconds, loaded, isAll);
 
@@ -164,7 +164,8 @@ Status loadBendingBody(const SceneFile& file, std::size_t index, LoadedScene& lo
                     "region = \"all\" gives all of it a grid",
                     body.name)};
   std::vector<std::string> warnings;
-  if (Status made = makeBendingMesh(std::move(first), {box, all, scene.cells}, body, warnings); !made)
+  if (Status made = makeBendingMesh(std::move(first), {box, all, scene.cells, isCloth}, body, warnings);
+      !made)
     return Error{fmt::format("the body {}: {}", body.name, made.error().message)};
   for (const std::string& warning : warnings)
     loaded.warnings.push_back(fmt::format("the body {}: {}", body.name, warning));
