@@ -7,15 +7,14 @@
 #ifndef RINGLET_BODY_CONTACT
 #define RINGLET_BODY_CONTACT
 
+#include "equations/cloth_contact.glsl"
 #include "shared/bending_buffers.glsl"
+#include "shared/kept_out.glsl"
 
 const float kDone = 1e30;           // [m] along the path: tracing has ended. Results are carried by the loop,
                                     // since lavapipe keeps executing lanes that have left it and preserves
                                     // only what the loop carries
-const float kTouchDistance = 1e-5;  // [m]: closer counts as touching; a tenth of a hair
 const float kOutside = 1e-4;        // [m]: a smaller depth counts as outside, and is corrected at once
-const int kTraceTurns = 16;         // distances taken along a path; grazing paths use them up and count as
-                                    // touching
 const float kLeaveSpeed = 0.2;      // [m/s]: largest speed at which something that began inside leaves
 const float kDeep = 1e-3;           // [m]: a deeper particle leaves across its strand, which would otherwise
                                     // be stretched
@@ -189,15 +188,6 @@ vec3 slowedInward(vec3 relative, vec3 n, float shift, float T) {
 /// A particle that began the step outside, at y0, and has moved to y1: moves it out of the body where it came
 /// in. The place of contact moves on with the surface; where another surface has closed in on it, it leaves that
 /// one.
-struct KeptOut {
-  bool moved;
-  vec3 place;
-  vec3 normal;
-};
-#ifdef RINGLET_BENDING
-#include "equations/cloth_contact.glsl"
-#endif
-
 KeptOut keptOut(BodyStep body, vec3 y0, vec3 y1) {
 #ifdef RINGLET_BENDING
   if (isCloth(body.rest)) return keptOff(body, y0, y1);

@@ -3,8 +3,10 @@
 #ifndef RINGLET_CLOTH_CONTACT
 #define RINGLET_CLOTH_CONTACT
 
-#include "shared/cloth_lists.glsl"
+#include "shared/bending_buffers.glsl"
+#include "shared/kept_out.glsl"
 
+#ifdef RINGLET_BENDING
 const float kSlip = 1e-6;      // [m] in what is left of a step: what approaches by less slides
 const int kClothRounds = 8;    // slides along cloth in a step; then the particle stays where it is on it
 const int kOutTurns = 12;      // halvings of a way of which not all is known
@@ -127,5 +129,6 @@ KeptOut keptOff(BodyStep body, vec3 y0, vec3 y1) {
   } while (!isDone);
   return KeptOut(place != y1, place, normal);
 }
+#endif
 
 #endif

@@ -7,6 +7,7 @@
 #define RINGLET_BENDING_BUFFERS
 
 #include "shared/body_buffers.glsl"
+#include "shared/cloth_lists.glsl"
 
 /// The surface near a place, from a copy of the field to the next.
 struct Bending {
@@ -18,25 +19,7 @@ struct Bending {
 const Bending kStill = Bending(vec3(0), 0.0, false, Surface(0.0, vec3(0)));
 
 #ifdef RINGLET_BENDING
-layout(set = 0, binding = kBindBodyKeys) readonly buffer BodyKeys { uint bodyKeys[]; };
-layout(set = 0, binding = kBindBodyWays) readonly buffer BodyWays { vec4 bodyWays[]; };
-layout(set = 0, binding = kBindBodyKeyTexels) uniform usamplerBuffer bodyKeyTexels;
-layout(set = 0, binding = kBindBodyWayTexels) uniform usamplerBuffer bodyWayTexels;
-
 const float kFieldError = 0.25;  // of a look at a field beside the exact distance, at most [cells]
-
-uint bodyKey(uint i) { return kTexels ? recordAt(bodyKeyTexels, i >> 2)[i & 3u] : bodyKeys[i]; }
-vec4 bodyWay(uint i) { return kTexels ? vectorAt(bodyWayTexels, i) : bodyWays[i]; }
-uint copyOf(float field) { return uint(field); }
-uint cornerCount(BodyRest body) { return (body.cells[0] + 1) * (body.cells[1] + 1) * (body.cells[2] + 1); }
-
-// Loop turns that a lane may spend on cloth in a dispatch; then what is left of it is held (cloth_contact.glsl). 0: no
-// body is cloth.
-layout(constant_id = kSpecCloth) const uint kClothTurns = 0;
-const bool kCloth = kClothTurns != 0;
-bool isCloth(BodyRest body) { return kCloth && body.shape == kShapeCloth; }
-
-#include "shared/cloth_lists.glsl"
 
 /// What a particle knows of cloth at its own start; an edge as its rootward particle.
 Bending clothAtStart(BodyRest body, uint copy) {

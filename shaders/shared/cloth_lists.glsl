@@ -5,6 +5,7 @@
 
 #include "shared/cloth_tree.glsl"
 
+#ifdef RINGLET_BENDING
 layout(set = 0, binding = kBindClothLists) buffer ClothLists { ClothList clothLists[]; };
 
 uint clothTurns = 0;  // spent by this lane
@@ -52,5 +53,6 @@ ClothPlace nearestOfCloth(BodyRest body, float field, vec3 y) {
   }
   return nearest;
 }
+#endif
 
 #endif

@@ -5,7 +5,9 @@
 
 #include "equations/triangle_distance.glsl"
 #include "layout/mesh_fields.h"
+#include "shared/body_fields.glsl"
 
+#ifdef RINGLET_BENDING
 const float kClothReach = 0.02;  // [m]: cloth further away has no place near a particle
 const float kClothSearch = 0.1;  // [m]: triangles further from a particle's way are in no list
 const float kOneSide = 0.5;      // square of the sum of two normals that are of one side
@@ -80,5 +82,6 @@ ClothSeen clothSeen(BodyRest body, uint copy, float share, bool moves, uint tria
   return ClothSeen(distance, n, shares.x * wayA + shares.y * wayB + shares.z * wayC, ofA + max(0.0, max(ofB, ofC)),
                    sqrt(max(square, 0.0) / max(bb * cc - bc * bc, 1e-30)));
 }
+#endif
 
 #endif
