@@ -73,11 +73,12 @@ template <class Real>
 struct Cloth {
   std::span<const Vector3<Real>> points, next;
   std::array<const ClothList<Real>*, 2> lists{};
+  Real later = 0;  // than those of the lists are these points, in ways to the next time
 
   /// The list that reaches furthest at a place.
   const ClothList<Real>& listAt(const Vector3<Real>& y, Real share) const {
     if (lists[0] == lists[1]) return *lists[0];
-    return *lists[lists[1]->reachFrom(y, share) > lists[0]->reachFrom(y, share) ? 1 : 0];
+    return *lists[lists[1]->reachFrom(y, share + later) > lists[0]->reachFrom(y, share + later) ? 1 : 0];
   }
 };
 
@@ -166,7 +167,8 @@ Real untilOut(const ClothList<Real>& list, const Vector3<Real>& place, Real shar
 template <class Real>
 ClothPlace<Real> nearestOfCloth(const Cloth<Real>& cloth, Real share, const Vector3<Real>& y) {
   const ClothList<Real>& list = cloth.listAt(y, share);
-  ClothPlace<Real> nearest{.distance = std::clamp(list.reachFrom(y, share), Real(0), Real(kClothReach))};
+  ClothPlace<Real> nearest{
+      .distance = std::clamp(list.reachFrom(y, share + cloth.later), Real(0), Real(kClothReach))};
   for (const ClothTriangle& triangle : list.triangles) {
     const cloth::Seen<Real> seen = cloth::seen(cloth, triangle, share, y);
     if (seen.distance >= nearest.distance) continue;
@@ -214,6 +216,8 @@ ClothList<Real> clothList(const Cloth<Real>& cloth, std::span<const ClothTriangl
     first = at, beyond = (1 - at) * n.dot(list.along) * n;
   }
   list.along -= beyond;
+  const Real search =
+      std::min(std::max(Real(kClothReach) + 2 * list.along.norm(), nearest), Real(kClothSearch));
   struct Bound {
     Real least;  // how near it comes, in the step, to the way
     ClothTriangle triangle;
@@ -226,11 +230,11 @@ ClothList<Real> clothList(const Cloth<Real>& cloth, std::span<const ClothTriangl
     for (const std::uint32_t p : triangle)
       faster = std::max(faster, way.shares * (cloth.next[p] - cloth.points[p] - list.way).norm());
     const Real least = apart - faster - Real(kListSlack) * list.along.norm() - Real(kListRound);
-    if (least < Real(kClothSearch)) bounds.push_back({least, triangle});
+    if (least < search) bounds.push_back({least, triangle});
   }
   std::ranges::stable_sort(bounds, {}, &Bound::least);
   if (bounds.size() > most) bounds.resize(most);
-  list.reach = bounds.size() == most ? bounds.back().least : Real(kClothSearch);
+  list.reach = bounds.size() == most ? bounds.back().least : search;
   list.distance = std::min({nearest, Real(kClothReach), std::max(list.reach, Real(0))});
   for (const Bound& bound : bounds) list.triangles.push_back(bound.triangle);
   return list;

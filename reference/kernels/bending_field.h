@@ -56,9 +56,10 @@ struct BodyShapeAt {
   const BendingField<Real>* field = nullptr;
   Real share = 0;
   std::array<const ClothList<Real>*, 2> lists{};  // of cloth, what is known of it
+  Real later = 0;                                 // see Cloth
 
   bool isCloth() const { return field && field->cloth; }
-  Cloth<Real> asCloth() const { return {field->points, field->next, lists}; }
+  Cloth<Real> asCloth() const { return {field->points, field->next, lists, later}; }
   /// How the surface near y moves to the next time [m]; of cloth, near the start of the particle that it is
   /// about.
   Vector3<Real> wayNear(const Vector3<Real>& y) const {

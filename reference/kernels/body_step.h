@@ -30,7 +30,9 @@ struct BodyStep {
   /// What an edge between two particles, or a single one, knows of the body.
   BodyStep at(std::size_t i, std::size_t j) const {
     BodyStep known = *this;
-    if (!lists.empty()) known.shapeNow.lists = known.shapeNext.lists = {&lists[i], &lists[j]};
+    if (lists.empty()) return known;
+    known.shapeNow.lists = known.shapeNext.lists = {&lists[i], &lists[j]};
+    known.shapeNext.later = shapeNext.field == shapeNow.field ? Real(0) : Real(1);
     return known;
   }
   BodyStep at(std::size_t i) const { return at(i, i); }

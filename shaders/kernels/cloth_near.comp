@@ -88,7 +88,7 @@ vec3 partBeyond(BodyRest body, uint copy, float share, vec3 from, vec3 along) {
 float bounds[kClothListed];  // how near each comes to the way
 uint listed[kClothListed];
 uint count;
-float worst;  // of the bounds once the list is full; before, kClothSearch
+float worst;  // of the bounds once the list is full; before, how far is looked
 
 /// Takes a triangle into the list, in place of the one furthest away if it is full.
 void take(uint triangle, float bound) {
@@ -106,8 +106,8 @@ void take(uint triangle, float bound) {
 }
 
 /// Lists the triangles that come nearest to the way from `from` by `along`; way: of the frame in which it is. Returns
-/// how far from it all are known.
-float listNear(BodyRest body, uint copy, float share, float shares, vec3 from, vec3 along, vec3 way) {
+/// how far from it all are known, at most `search`.
+float listNear(BodyRest body, uint copy, float share, float shares, vec3 from, vec3 along, vec3 way, float search) {
   uint tree = treeOf(body, copy);
   uint leaves = 1u << body.triangleBits;
   bool moves = longestWay(body, copy) > 0.0;
@@ -116,7 +116,7 @@ float listNear(BodyRest body, uint copy, float share, float shares, vec3 from, v
   float slack = kListSlack * length(along) + kListRound;
   float ofFrame = shares * length(way);
   count = 0;
-  worst = kClothSearch;
+  worst = search;
   uint node = 1;
   do {
     Box box = boxOf(body, tree, node);
@@ -152,7 +152,8 @@ void listOf(uint cloth, BodyStep body, uint i) {
   vec3 way = nearest.xyz;
   vec3 along = placeAtEnd(body, p + stepSeconds() * velocityAtStart(i)) - from - shares * way;
   along -= partBeyond(body.rest, copy, share, from, along);
-  float reach = listNear(body.rest, copy, share, shares, from, along, way);
+  float search = min(max(kClothReach + 2.0 * length(along), nearest.w), kClothSearch);
+  float reach = listNear(body.rest, copy, share, shares, from, along, way, search);
   uint list = cloth * parameters.particleCount + i;
   clothLists[list].from = from;
   clothLists[list].reach = reach;
