@@ -216,8 +216,15 @@ ClothList<Real> clothList(const Cloth<Real>& cloth, std::span<const ClothTriangl
     first = at, beyond = (1 - at) * n.dot(list.along) * n;
   }
   list.along -= beyond;
-  const Real search =
-      std::min(std::max(Real(kClothReach) + 2 * list.along.norm(), nearest), Real(kClothSearch));
+  // From all that is not nearer than the nearest place; where that is enough, no list is needed.
+  Real longest = 0;
+  for (std::size_t i = 0; i < cloth.points.size(); ++i)
+    longest = std::max(longest, (cloth.next[i] - cloth.points[i]).norm());
+  const Real slack = Real(kListSlack) * list.along.norm() + Real(kListRound);
+  list.distance = std::min(nearest, Real(kClothReach));
+  list.reach = nearest - list.along.norm() - slack - way.shares * (longest + list.way.norm());
+  if (list.reach >= Real(kClothReach)) return list;
+  const Real search = std::min(Real(kClothReach) + 2 * list.along.norm(), Real(kClothSearch));
   struct Bound {
     Real least;  // how near it comes, in the step, to the way
     ClothTriangle triangle;
@@ -229,13 +236,13 @@ ClothList<Real> clothList(const Cloth<Real>& cloth, std::span<const ClothTriangl
     Real faster = 0;
     for (const std::uint32_t p : triangle)
       faster = std::max(faster, way.shares * (cloth.next[p] - cloth.points[p] - list.way).norm());
-    const Real least = apart - faster - Real(kListSlack) * list.along.norm() - Real(kListRound);
+    const Real least = apart - faster - slack;
     if (least < search) bounds.push_back({least, triangle});
   }
   std::ranges::stable_sort(bounds, {}, &Bound::least);
   if (bounds.size() > most) bounds.resize(most);
   list.reach = bounds.size() == most ? bounds.back().least : search;
-  list.distance = std::min({nearest, Real(kClothReach), std::max(list.reach, Real(0))});
+  list.distance = std::min(list.distance, std::max(list.reach, Real(0)));
   for (const Bound& bound : bounds) list.triangles.push_back(bound.triangle);
   return list;
 }
@@ -275,9 +282,7 @@ ClothTouch<Real> traceCloth(const Cloth<Real>& cloth, const ClothWay<Real>& way,
       touch.way = way.shares * seen.way;
     }
     const Real out = cloth::untilOut<Real>(list, touch.place, share, perStep, way.shares, until, kept);
-    if (out < until ||
-        (touch.found && until > Real(0) &&
-         turn == kTraceTurns)) {  // where triangles are not known, or too fast to be followed: held there
+    if (out < until) {  // where triangles are not known: held there
       touch.at += out;
       touch.place = way.y0 + (touch.at - way.begin) * perStep;
       touch.found = true;
@@ -285,7 +290,7 @@ ClothTouch<Real> traceCloth(const Cloth<Real>& cloth, const ClothWay<Real>& way,
       touch.surface = {0, directionOr<Real>(Vector3<Real>(touch.way - perStep), Vector3<Real>::UnitY())};
       break;
     }
-    if (!touch.found || until <= Real(0)) break;
+    if (!touch.found || until <= Real(0) || turn == kTraceTurns) break;
     touch.at += until;
     touch.place = way.y0 + (touch.at - way.begin) * perStep;
   }

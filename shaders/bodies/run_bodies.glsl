@@ -193,7 +193,7 @@ bool askOf(BodyStep anywhere, int k, int l, NextParticle next, vec3 edgeBefore, 
   bool isOnCloth = isOne && isCloth(body.rest);
   ClothTouch cloth;
   if (isOnCloth) {
-    cloth = traceCloth(body, a0, a1, 0.0, body.rest.rounding);
+    cloth = traceCloth(body, a0, a1, 0.0, body.rest.rounding, bent(body, bendingAtStart(body, a0)));
     touch = Touch(cloth.found, !cloth.found, Surface(cloth.gap, cloth.normal), cloth.place,
                   a0 + cloth.at * cloth.way, 0.0, 0.0);
   } else

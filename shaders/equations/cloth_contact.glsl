@@ -53,7 +53,8 @@ float untilOut(uint list, vec3 place, float field, vec3 perStep, float shares, f
   return known;
 }
 
-ClothTouch traceCloth(BodyStep body, vec3 y0, vec3 y1, float begin, float kept) {
+/// `held`: the way with which a particle goes on that is held after too many turns [m].
+ClothTouch traceCloth(BodyStep body, vec3 y0, vec3 y1, float begin, float kept, vec3 held) {
   uint list = body.rest.lists[0];
   uint copy = copyOf(body.before.field);
   float shares = bendingShare(body);
@@ -86,15 +87,15 @@ ClothTouch traceCloth(BodyStep body, vec3 y0, vec3 y1, float begin, float kept) 
     }
     float known = isHeld ? 0.0 : untilOut(list, touch.place, field, perStep, shares, until, kept);
     // Where triangles are not known, or after too many turns: held there.
-    bool isOut = !isDone && (isHeld || known < until || (found && until > 0.0 && turn == kTraceTurns));
-    vec3 onward = shares * clothLists[list].way;
+    bool isOut = !isDone && (isHeld || known < until);
+    vec3 onward = isHeld ? held : shares * clothLists[list].way;
     vec3 against = onward - perStep;
     touch.gap = isOut ? 0.0 : touch.gap;
     touch.normal = isOut ? (dot(against, against) > 0.0 ? normalize(against) : vec3(0, 1, 0)) : touch.normal;
     touch.way = isOut ? onward : touch.way;
     // Carried by the loop, see kDone.
-    bool isLast = isOut || !found || until <= 0.0;
-    touch.found = isDone ? touch.found : isOut || (found && until <= 0.0);
+    bool isLast = isOut || !found || until <= 0.0 || turn == kTraceTurns;
+    touch.found = isDone ? touch.found : isOut || (found && isLast);
     touch.at += isDone ? 0.0 : isOut ? known : isLast ? 0.0 : until;
     touch.place = isDone ? touch.place : y0 + (touch.at - begin) * perStep;
     isDone = isDone || isLast;
@@ -110,14 +111,16 @@ KeptOut keptOff(BodyStep body, vec3 y0, vec3 y1) {
   vec3 place = y1;
   vec3 from = y0;
   vec3 normal = vec3(0);
+  vec3 way = bent(body, bendingAtStart(body, y0));
   float begin = 0.0;
   int round = 0;
   bool isDone = false;
   do {
-    ClothTouch touch = traceCloth(body, from, place, begin, kept);
+    ClothTouch touch = traceCloth(body, from, place, begin, kept, way);
     if (touch.found && !isDone) {
       vec3 held = touch.place + (1.0 - touch.at) * touch.way;
       normal = touch.normal;
+      way = touch.way;
       from = touch.place;
       begin = touch.at;
       // Along the plane of what it touches.

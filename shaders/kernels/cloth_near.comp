@@ -23,42 +23,71 @@ Box boxOf(BodyRest body, uint tree, uint node) {
   vec4 low = clothWord(body, tree + 2 * node);
   return Box(low.xyz, clothWord(body, tree + 2 * node + 1).xyz, low.w);
 }
-/// The node after this one, within it or not; 1: none is left.
-uint nodeAfter(uint node, bool within) {
-  uint beside = node + 1;
-  return within ? 2 * node : beside >> findLSB(beside);
+float apartFrom(Box box, vec3 low, vec3 high) { return length(max(max(box.low - high, low - box.high), 0.0)); }
+
+/// Walks on from `node`, 1 at first, to the next leaf that is nearer than `within` to the box from low to high, less
+/// the share of its longest way by which it may come nearer. Returns its node; 0: none is left, and `node` is 0. A loop
+/// of its own, since a driver that masks lanes would do at every node what is done at a leaf. Carried by the loop, see
+/// kDone of body_contact.glsl.
+uint nextLeaf(BodyRest body, uint tree, inout uint node, vec3 low, vec3 high, float shares, float within) {
+  uint leaves = 1u << body.triangleBits;
+  uint leaf = 0;
+  do {
+    Box box = boxOf(body, tree, max(node, 1));
+    bool isNear = node != 0 && apartFrom(box, low, high) - shares * box.way < within;
+    bool isLeaf = node >= leaves;
+    leaf = isNear && isLeaf ? node : leaf;
+    uint beside = node + 1;
+    uint after = isNear && !isLeaf ? 2 * node : beside >> findLSB(beside);
+    node = node == 0 || after == 1 ? 0 : after;
+  } while (leaf == 0 && node != 0);
+  return leaf;
+}
+/// The triangles of a leaf: from x to y, without y; of none none.
+uvec2 trianglesOf(BodyRest body, uint leaf) {
+  uint at = max(leaf, 1u << body.triangleBits) - (1u << body.triangleBits);
+  uint first = firstOfNode(body, at, body.triangleBits);
+  return uvec2(first, leaf == 0 ? first : firstOfNode(body, at + 1, body.triangleBits));
+}
+
+/// A distance beyond which the walk through the tree need not look: a little more than that of a leaf that is near.
+float nearestAtMost(BodyRest body, uint copy, float share, bool moves, vec3 y) {
+  uint tree = treeOf(body, copy);
+  uint leaves = 1u << body.triangleBits;
+  uint node = 1;
+  if (node < leaves) do {
+    bool isSecond = apartFrom(boxOf(body, tree, 2 * node + 1), y, y) < apartFrom(boxOf(body, tree, 2 * node), y, y);
+    node = 2 * node + (isSecond ? 1 : 0);
+  } while (node < leaves);
+  float most = kClothSearch;
+  uvec2 triangles = trianglesOf(body, node);
+  for (uint triangle = triangles.x; triangle < triangles.y; ++triangle)
+    most = min(most, clothSeen(body, copy, share, moves, triangle, y).distance);
+  return min(1.001 * most + kListRound, kClothSearch);
 }
 
 /// The nearest place of the cloth, within kClothSearch: xyz: how it moves to the next copy; w: its distance [m].
 vec4 nearestTo(BodyRest body, uint copy, float share, vec3 y) {
   uint tree = treeOf(body, copy);
-  uint leaves = 1u << body.triangleBits;
   bool moves = longestWay(body, copy) > 0.0;
-  float nearest = kClothSearch;
+  float nearest = nearestAtMost(body, copy, share, moves, y);
   vec3 way = vec3(0);
   uint node = 1;
   do {
-    Box box = boxOf(body, tree, node);
-    bool isNear = length(max(max(box.low - y, y - box.high), 0.0)) < nearest;
-    bool isLeaf = node >= leaves;
-    if (isNear && isLeaf) {
-      uint end = firstOfNode(body, node - leaves + 1, body.triangleBits);
-      for (uint triangle = firstOfNode(body, node - leaves, body.triangleBits); triangle < end; ++triangle) {
-        ClothSeen seen = clothSeen(body, copy, share, moves, triangle, y);
-        bool isNearer = seen.distance < nearest;
-        way = isNearer ? seen.way : way;
-        nearest = isNearer ? seen.distance : nearest;
-      }
+    uvec2 triangles = trianglesOf(body, nextLeaf(body, tree, node, y, y, 0.0, nearest));
+    for (uint triangle = triangles.x; triangle < triangles.y; ++triangle) {
+      ClothSeen seen = clothSeen(body, copy, share, moves, triangle, y);
+      bool isNearer = seen.distance < nearest;
+      way = isNearer ? seen.way : way;
+      nearest = isNearer ? seen.distance : nearest;
     }
-    node = nodeAfter(node, isNear && !isLeaf);
-  } while (node != 1);
+  } while (node != 0);
   return vec4(way, nearest);
 }
 
 /// What of the way from `from` by `along` is beyond the cloth that it goes through first, across that: the rest slides.
 vec3 partBeyond(BodyRest body, uint copy, float share, vec3 from, vec3 along) {
   uint tree = treeOf(body, copy);
-  uint leaves = 1u << body.triangleBits;
   bool moves = longestWay(body, copy) > 0.0;
   vec3 low = min(from, from + along);
   vec3 high = max(from, from + along);
@@ -66,22 +95,16 @@ vec3 partBeyond(BodyRest body, uint copy, float share, vec3 from, vec3 along) {
   vec3 beyond = vec3(0);
   uint node = 1;
   do {
-    Box box = boxOf(body, tree, node);
-    bool isNear = all(lessThanEqual(box.low, high)) && all(lessThanEqual(low, box.high));
-    bool isLeaf = node >= leaves;
-    if (isNear && isLeaf) {
-      uint end = firstOfNode(body, node - leaves + 1, body.triangleBits);
-      for (uint triangle = firstOfNode(body, node - leaves, body.triangleBits); triangle < end; ++triangle) {
-        vec3 corners[3] = cornersOf(body, copy, share, moves, triangle);
-        float at = crossingShare(from, from + along, corners[0], corners[1], corners[2]);
-        bool isFirst = at < first;
-        vec3 n = isFirst ? normalize(cross(corners[1] - corners[0], corners[2] - corners[0])) : vec3(0);
-        beyond = isFirst ? (1.0 - at) * dot(n, along) * n : beyond;
-        first = isFirst ? at : first;
-      }
+    uvec2 triangles = trianglesOf(body, nextLeaf(body, tree, node, low, high, 0.0, kListRound));
+    for (uint triangle = triangles.x; triangle < triangles.y; ++triangle) {
+      vec3 corners[3] = cornersOf(body, copy, share, moves, triangle);
+      float at = crossingShare(from, from + along, corners[0], corners[1], corners[2]);
+      bool isFirst = at < first;
+      vec3 n = isFirst ? normalize(cross(corners[1] - corners[0], corners[2] - corners[0])) : vec3(0);
+      beyond = isFirst ? (1.0 - at) * dot(n, along) * n : beyond;
+      first = isFirst ? at : first;
     }
-    node = nodeAfter(node, isNear && !isLeaf);
-  } while (node != 1);
+  } while (node != 0);
   return beyond;
 }
 
@@ -109,7 +132,6 @@ void take(uint triangle, float bound) {
 /// how far from it all are known, at most `search`.
 float listNear(BodyRest body, uint copy, float share, float shares, vec3 from, vec3 along, vec3 way, float search) {
   uint tree = treeOf(body, copy);
-  uint leaves = 1u << body.triangleBits;
   bool moves = longestWay(body, copy) > 0.0;
   vec3 low = min(from, from + along);
   vec3 high = max(from, from + along);
@@ -119,27 +141,21 @@ float listNear(BodyRest body, uint copy, float share, float shares, vec3 from, v
   worst = search;
   uint node = 1;
   do {
-    Box box = boxOf(body, tree, node);
-    float apart = length(max(max(box.low - high, low - box.high), 0.0));
-    bool isNear = apart - shares * box.way - ofFrame - slack < worst;
-    bool isLeaf = node >= leaves;
-    if (isNear && isLeaf) {
-      uint end = firstOfNode(body, node - leaves + 1, body.triangleBits);
-      for (uint triangle = firstOfNode(body, node - leaves, body.triangleBits); triangle < end; ++triangle) {
-        vec3 corners[3] = cornersOf(body, copy, share, moves, triangle);
-        float faster = 0.0;
-        [[unroll]] for (uint k = 0; k < 3; ++k) {
-          vec3 on;
-          cornerOf(body, copy, moves, triangle, k, on);
-          faster = max(faster, shares * length(on - way));
-        }
-        float bound = lineTriangleDistance(from, from + along, corners[0], corners[1], corners[2]) - faster - slack;
-        if (bound < worst) take(triangle, bound);
+    uint leaf = nextLeaf(body, tree, node, low, high, shares, worst + ofFrame + slack);
+    uvec2 triangles = trianglesOf(body, leaf);
+    for (uint triangle = triangles.x; triangle < triangles.y; ++triangle) {
+      vec3 corners[3] = cornersOf(body, copy, share, moves, triangle);
+      float faster = 0.0;
+      [[unroll]] for (uint k = 0; k < 3; ++k) {
+        vec3 on;
+        cornerOf(body, copy, moves, triangle, k, on);
+        faster = max(faster, shares * length(on - way));
       }
+      float bound = lineTriangleDistance(from, from + along, corners[0], corners[1], corners[2]) - faster - slack;
+      if (bound < worst) take(triangle, bound);
     }
-    node = nodeAfter(node, isNear && !isLeaf);
-  } while (node != 1);
-  return node == 1 ? worst : 0.0;  // a driver that ends loops early leaves it unknown
+  } while (node != 0);
+  return node == 0 ? worst : 0.0;  // a driver that ends loops early leaves it unknown
 }
 
 void listOf(uint cloth, BodyStep body, uint i) {
@@ -152,8 +168,15 @@ void listOf(uint cloth, BodyStep body, uint i) {
   vec3 way = nearest.xyz;
   vec3 along = placeAtEnd(body, p + stepSeconds() * velocityAtStart(i)) - from - shares * way;
   along -= partBeyond(body.rest, copy, share, from, along);
-  float search = min(max(kClothReach + 2.0 * length(along), nearest.w), kClothSearch);
-  float reach = listNear(body.rest, copy, share, shares, from, along, way, search);
+  // From all that is not nearer than the nearest place; where that is enough, no list is needed.
+  float far = nearest.w - (1.0 + kListSlack) * length(along) - kListRound -
+              shares * (longestWay(body.rest, copy) + length(way));
+  float reach = far;
+  count = 0;
+  if (far < kClothReach) {
+    float search = min(kClothReach + 2.0 * length(along), kClothSearch);
+    reach = listNear(body.rest, copy, share, shares, from, along, way, search);
+  }
   uint list = cloth * parameters.particleCount + i;
   clothLists[list].from = from;
   clothLists[list].reach = reach;
