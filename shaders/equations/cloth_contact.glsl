@@ -1,5 +1,5 @@
-// Where a particle meets cloth, and how it is kept off. Part of body_contact.glsl. Mirrored by
-// reference/equations/cloth_contact.h, which has a sketch and the reasons.
+// Where a particle meets cloth, and how it is kept off. Mirrored by reference/equations/cloth_contact.h, which has a
+// sketch and the reasons.
 #ifndef RINGLET_CLOTH_CONTACT
 #define RINGLET_CLOTH_CONTACT
 

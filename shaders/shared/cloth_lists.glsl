@@ -1,5 +1,5 @@
 // What a particle, or the two ends of an edge, know of cloth: the triangles of their lists, which cloth_near.comp has
-// made at the step's start. Part of bending_buffers.glsl. Mirrored by reference/equations/cloth_contact.h.
+// made at the step's start. Mirrored by reference/equations/cloth_contact.h.
 #ifndef RINGLET_CLOTH_LISTS
 #define RINGLET_CLOTH_LISTS
 

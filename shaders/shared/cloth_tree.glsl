@@ -1,5 +1,5 @@
-// The triangles of cloth, in a tree of boxes (layout/mesh_fields.h), and how one is seen from a place. Part of
-// bending_buffers.glsl. Mirrored by reference/equations/cloth_contact.h.
+// The triangles of cloth, in a tree of boxes (layout/mesh_fields.h), and how one is seen from a place.
+// Mirrored by reference/equations/cloth_contact.h.
 #ifndef RINGLET_CLOTH_TREE
 #define RINGLET_CLOTH_TREE
 
