@@ -7,6 +7,7 @@
 
 #include "ringlet/bodies/body_distance.h"
 #include "ringlet/bodies/make_bending_mesh.h"
+#include "ringlet/bodies/triangle_tree.h"
 #include "tests/bodies/body_samples.h"
 #include "tests/support/sample_bodies.h"
 
@@ -138,6 +139,59 @@ TEST(BodyWatch, SeesWhereABodyBendsTo) {
   EXPECT_NEAR(watch.numbers().deepest, 0.05, 0.002);
   EXPECT_EQ(watch.numbers().particle, 1);
   EXPECT_EQ(watch.numbers().frame, 1);
+}
+
+// Against a look at every particle by itself, along strands that wander out of a ball and in while it swells
+// and is thick. Some strands begin inside.
+TEST(BodyWatch, LeavesOutNothingThatIsInsideWhatBends) {
+  constexpr int kStrands = 300, kParticles = 16, kLooks = 4;
+  constexpr double kThickness = 0.012, kOnSurface = 1e-5;  // [m]
+  const TriangleMesh ball = sphereMesh(0.1, 12);
+  std::vector<std::string> warnings;
+  std::vector<Body> bodies{{.name = "ball", .shape = BodyShape::grid, .thickness = kThickness}};
+  ASSERT_TRUE(makeBendingMesh(ball, bendingRoomOf(ball.points, {}, 16), bodies[0], warnings));
+  std::mt19937 random(2);
+  std::normal_distribution<float> step(0, 0.006f);
+  std::uniform_real_distribution<float> side(-0.13f, 0.13f);
+  Groom groom;
+  groom.metresPerUnit = 1;
+  for (int s = 0; s < kStrands; ++s) {
+    std::vector<Vec3f> points{{side(random), side(random), side(random)}};
+    while (points.size() < kParticles)
+      points.push_back(points.back() + Vec3f{step(random), step(random), step(random)});
+    groom.addStrand(points);
+  }
+  BodyWatch watch(groom, bodies, 1);
+  BodyNumbers expected;
+  std::vector<bool> wasOutside(groom.points.size(), false), wasOnIt = wasOutside;
+  for (int look = 0; look < kLooks; ++look) {
+    std::vector<Vec3d> swollen;
+    for (const Vec3d& p : ball.points)
+      swollen.push_back({p.x * (1 + 0.1 * look), p.y, p.z * (1 - 0.05 * look)});
+    const std::span<const Vec3d> ends(swollen);
+    watch.look(groom.points, HeadPose{}, std::vector<BodyPose>(1), std::span(&ends, 1));
+    const TriangleTree tree({swollen, ball.triangles});
+    for (std::size_t i = 0; i < groom.points.size(); ++i) {
+      if (i % kParticles == 0) continue;
+      const Vec3d place(groom.points[i]);
+      const double apart = tree.nearest(place).distance;
+      const double distance = (tree.windingNumber(place) > 0.5 ? -apart : apart) - kThickness;
+      if (distance >= 0) wasOutside[i] = true;
+      if (distance >= -kOnSurface) wasOnIt[i] = true;
+      if (!wasOutside[i] || -distance <= expected.deepest) continue;
+      expected = {-distance, std::int64_t(i / kParticles), std::int64_t(i % kParticles), look, 0};
+    }
+  }
+  for (std::size_t i = 0; i < wasOnIt.size(); ++i)
+    expected.inside += i % kParticles != 0 && !wasOnIt[i] ? 1 : 0;
+  EXPECT_GT(expected.deepest, 0.02);
+  EXPECT_GT(expected.inside, 100u);
+  const BodyNumbers seen = watch.numbers();
+  EXPECT_EQ(seen.deepest, expected.deepest);
+  EXPECT_EQ(seen.strand, expected.strand);
+  EXPECT_EQ(seen.particle, expected.particle);
+  EXPECT_EQ(seen.frame, expected.frame);
+  EXPECT_EQ(seen.inside, expected.inside);
 }
 
 }  // namespace

@@ -2,9 +2,11 @@
 #include "ringlet/measure/body_watch.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "ringlet/base/assert.h"
 #include "ringlet/bodies/body_distance.h"
+#include "ringlet/bodies/near_triangles.h"
 #include "ringlet/bodies/triangle_tree.h"
 
 namespace ringlet {
@@ -32,24 +34,45 @@ struct Clearance {
   }
 };
 
+// More triangles than this in a cell take longer than the way through the tree.
+constexpr std::size_t kMostListed = 64;
+
 // The triangles of a body that bends, in the world; without points as it was at first.
 class BentSurface {
  public:
   BentSurface(const Body& body, const BodyPose& pose, std::span<const Vec3d> points)
-      : thickness_(body.thickness), tree_(meshOf(body, pose, points)) {}
+      : thickness_(body.thickness),
+        mesh_(meshOf(body, pose, points)),
+        near_(mesh_, body.thickness),
+        witnessOf_(near_.cellCount(), kNone) {}
 
-  /// From its surface, thickness included [m]; negative inside. Cheapest where each place is near the last.
+  /// From its surface, thickness included [m]; negative inside, and exact there. Outside it may be less, but
+  /// not below 0. Cheapest where each place is near the last.
   double distanceTo(Vec3d place) {
-    const TriangleTree::Nearest nearest = tree_.nearest(place, last_.entry);
-    // Two balls that hold no surface and meet are on one side of it.
-    const bool isOnLastSide = length(place - lastPlace_) < nearest.distance + last_.distance;
-    if (!isOnLastSide) isLastInside_ = tree_.windingNumber(place) > 0.5;
-    last_ = nearest;
-    lastPlace_ = place;
-    return (isLastInside_ ? -nearest.distance : nearest.distance) - thickness_;
+    const std::size_t cell = near_.cellAt(place);
+    const bool isNear = cell != NearTriangles::kNoCell && near_.kindOf(cell) == NearTriangles::Cell::near;
+    const bool isOutside =
+        !isNear && (cell == NearTriangles::kNoCell || near_.kindOf(cell) == NearTriangles::Cell::outside);
+    Seat seat{place, near_.reach(), false};
+    if (!isOutside) {
+      if (isNear) seat.distance = nearDistance(place, cell);
+      seat.isInside = isInside(seat, cell, isNear);
+      // What is at least that far is measured only inside.
+      if (seat.isInside && seat.distance >= near_.reach()) seat.distance = tree().nearest(place).distance;
+    }
+    last_ = seat;
+    return (seat.isInside ? -seat.distance : seat.distance) - thickness_;
   }
 
  private:
+  static constexpr std::uint32_t kNone = ~0u;
+  // A place whose side is known; no surface is nearer than the distance.
+  struct Seat {
+    Vec3d place{};
+    double distance = -1e300;  // at first there is none
+    bool isInside = false;
+  };
+
   static TriangleMesh meshOf(const Body& body, const BodyPose& pose, std::span<const Vec3d> points) {
     std::vector<Vec3d> own(points.begin(), points.end());
     for (std::size_t i = 0; points.empty() && i < body.mesh->points.size(); ++i)
@@ -57,11 +80,46 @@ class BentSurface {
     return {body.mesh->surface.pointsOf(own), body.mesh->surface.triangles};
   }
 
+  double nearDistance(Vec3d place, std::size_t cell) {
+    return near_.listedIn(cell) > kMostListed ? tree().nearest(place).distance
+                                              : near_.distanceTo(place, cell);
+  }
+
+  // Two balls that hold no surface and meet are on one side of it; so are places with no triangle between.
+  bool isInside(const Seat& seat, std::size_t cell, bool isNear) {
+    const double way = length(seat.place - last_.place);
+    if (way < seat.distance + last_.distance) return last_.isInside;
+    if (!isNear || near_.listedIn(cell) > kMostListed) return tree().windingNumber(seat.place) > 0.5;
+    if (last_.distance >= 0 && way < near_.reach() && near_.isFreeBetween(seat.place, last_.place, cell))
+      return last_.isInside;
+    return isInsideBeside(seat, cell);
+  }
+
+  // Asks the place that was seen first in the same cell.
+  bool isInsideBeside(const Seat& seat, std::size_t cell) {
+    std::uint32_t& witness = witnessOf_[cell];
+    if (witness != kNone && near_.isFreeBetween(seat.place, witnesses_[witness].place, cell))
+      return witnesses_[witness].isInside;
+    const bool isInside = tree().windingNumber(seat.place) > 0.5;
+    if (witness == kNone) {
+      witness = static_cast<std::uint32_t>(witnesses_.size());
+      witnesses_.push_back({seat.place, seat.distance, isInside});
+    }
+    return isInside;
+  }
+
+  const TriangleTree& tree() {
+    if (!tree_) tree_.emplace(mesh_);
+    return *tree_;
+  }
+
   double thickness_;
-  TriangleTree tree_;
-  TriangleTree::Nearest last_{.distance = -1e300};  // of the place before; at first there is none
-  Vec3d lastPlace_{};
-  bool isLastInside_ = false;
+  TriangleMesh mesh_;
+  NearTriangles near_;
+  std::optional<TriangleTree> tree_;  // made when it is asked
+  Seat last_;
+  std::vector<std::uint32_t> witnessOf_;  // of each cell, in witnesses_
+  std::vector<Seat> witnesses_;
 };
 
 }  // namespace
