@@ -16,7 +16,6 @@
 namespace ringlet {
 namespace {
 
-constexpr std::uint32_t kMostInPoseGroup = 256;
 constexpr std::uint32_t kPointsEach = 64;  // that an invocation looks at for the box
 
 std::vector<std::uint32_t> tagsOf(std::span<const std::uint32_t> firstPoint, PoseTag tag,
@@ -40,7 +39,7 @@ gpu::KernelDescription describe(const gpu::Device& device, const char* name,
   description.name = name;
   description.spirv = spirv;
   description.pushConstantBytes = sizeof(layout::PoseParameters);
-  description.groupSize = std::min(kMostInPoseGroup, device.properties().maxGroupInvocations);
+  description.groupSize = device.pointGroupSize();
   description.constants = {{layout::kSpecGroupSize, description.groupSize},
                            {layout::kSpecTexels, texels ? 1u : 0u}};
   return description;

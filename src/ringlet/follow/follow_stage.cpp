@@ -29,9 +29,6 @@
 namespace ringlet {
 namespace {
 
-constexpr std::uint32_t kMostInGroup =
-    256;  // 65,535 groups, the least Vulkan promises, are 16 million points
-
 struct Compiled {
   const char* name;
   std::span<const std::uint32_t> spirv;
@@ -90,10 +87,6 @@ layout::FollowBlend blendOf(const FollowHair& hair) {
     blend.offsets[k] = packed(Vec3d(other.offset), static_cast<double>(other.share));
   }
   return blend;
-}
-
-std::uint32_t groupSizeOn(const gpu::Device& device) {
-  return std::min(kMostInGroup, device.properties().maxGroupInvocations);
 }
 
 }  // namespace
@@ -194,11 +187,11 @@ Status FollowStage::makeKernels(gpu::Device& device, bool isOnScalp, bool areCut
     description.spirv = spirv;
     description.remedy = "take another device, or fewer hairs";
     description.pushConstantBytes = sizeof(layout::FollowParameters);
-    description.constants = {{layout::kSpecGroupSize, groupSizeOn(device)},
+    description.constants = {{layout::kSpecGroupSize, device.pointGroupSize()},
                              {layout::kSpecTexels, texels ? 1u : 0u},
                              {layout::kSpecOnScalp, isOnScalp ? 1u : 0u},
                              {layout::kSpecCutGuides, areCut ? 1u : 0u}};
-    description.groupSize = groupSizeOn(device);
+    description.groupSize = device.pointGroupSize();
     auto kernel = gpu::BoundKernel::create(device, description, table);
     if (!kernel) return kernel.error();
     kernels_.push_back(std::move(*kernel));
@@ -218,7 +211,7 @@ Result<FollowStage> FollowStage::create(gpu::Device& device, std::span<const Gui
   for (const FollowHair& hair : hairs) points += guides[hair.guide].arcs.size();
   const std::uint64_t most =
       std::min<std::uint64_t>(device.properties().maxStorageBufferRange / 16,
-                              std::uint64_t{device.properties().maxGroupCount} * groupSizeOn(device));
+                              std::uint64_t{device.properties().maxGroupCount} * device.pointGroupSize());
   if (points > most || hairs.size() * stride > std::min<std::uint64_t>(most, layout::kHairEnd))
     return Error{
         fmt::format("{} hairs have {} points; the device {} sees at most {} at once, of {} such hairs",

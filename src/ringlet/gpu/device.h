@@ -2,6 +2,7 @@
 // hold their device open; it closes with the last of them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -160,6 +161,9 @@ class Device : public std::enable_shared_from_this<Device> {
   Device& operator=(const Device&) = delete;
 
   const DeviceProperties& properties() const { return properties_; }
+  /// Of a kernel with one invocation a point: 65,535 groups, the least Vulkan promises, are 16 million
+  /// points.
+  std::uint32_t pointGroupSize() const { return std::min(256u, properties_.maxGroupInvocations); }
   const DeviceOptions& options() const { return options_; }
 
   /// Fails in another process than the one that opened the device, after fork(): a driver's threads are not

@@ -17,14 +17,9 @@
 namespace ringlet {
 namespace {
 
-constexpr std::uint32_t kMostInGroup = 256;
 constexpr std::uint32_t kShadowHairs = 10000;      // that throw shadows, for all
 constexpr double kNear = 0.01, kNearShare = 0.02;  // [m], and of the way to what is looked at, where less
 constexpr double kMostHairs = 16384;               // before a place on average: sums stay within 32 bits
-
-std::uint32_t groupSizeOn(const gpu::Device& device) {
-  return std::min(kMostInGroup, device.properties().maxGroupInvocations);
-}
 
 Status checkSize(const PictureSize& size) {
   RINGLET_ASSERT(size.shadowCells >= 8 && size.shadowCells <= 256 && size.shadowSlices >= 8 &&
@@ -143,7 +138,7 @@ Status HairRenderer::makeBuffers(gpu::Device& device, const DrawnHairs& hairs) {
   const std::uint64_t row = std::uint64_t{8} * size_.side * size_.side * size_.width;
   const std::uint64_t most =
       std::min({size_.mostBytes, device.properties().maxStorageBufferRange,
-                std::uint64_t{8} * groupSizeOn(device) * device.properties().maxGroupCount});
+                std::uint64_t{8} * device.pointGroupSize() * device.properties().maxGroupCount});
   bandRows_ = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(most / row, 1, size_.height));
   const std::uint64_t pixels = std::uint64_t{1} * size_.width * size_.height,
                       inBand = std::uint64_t{1} * size_.width * bandRows_;
@@ -205,7 +200,7 @@ Status HairRenderer::makeKernels(gpu::Device& device, const gpu::Buffer& points)
     texels = texels && isSeenAsTexels(device, table.at(binding).get().bytes());
   for (std::size_t k = 0; k < kRenderKernelCount; ++k) {
     auto kernel =
-        gpu::Kernel::create(device, describeRenderKernel(static_cast<RenderKernel>(k), groupSizeOn(device),
+        gpu::Kernel::create(device, describeRenderKernel(static_cast<RenderKernel>(k), device.pointGroupSize(),
                                                          hasAtomic64_, texels, size_.isPreview));
     if (!kernel) return kernel.error();
     auto bindings = gpu::Bindings::create(**kernel, table);

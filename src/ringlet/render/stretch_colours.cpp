@@ -11,7 +11,6 @@
 namespace ringlet {
 namespace {
 
-constexpr std::uint32_t kMostInGroup = 256;
 constexpr double kLeastEdge = 1e-9;  // [m]: edges without a length at rest are not stretched
 
 }  // namespace
@@ -40,7 +39,7 @@ Result<StretchColours> StretchColours::create(gpu::Device& device, const gpu::Bu
   description.name = "render_stretch";
   description.spirv = k_render_stretch_plain;
   description.pushConstantBytes = sizeof(layout::StretchParameters);
-  description.groupSize = std::min(kMostInGroup, device.properties().maxGroupInvocations);
+  description.groupSize = device.pointGroupSize();
   description.constants = {{layout::kSpecGroupSize, description.groupSize}};
   auto kernel = gpu::BoundKernel::create(device, description,
                                          {{layout::kBindStretchPoints, points},

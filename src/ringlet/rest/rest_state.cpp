@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 
+#include "ringlet/base/packed.h"
 #include "ringlet/rest/material_extremes.h"
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/rest_curve.h"
@@ -23,10 +24,6 @@ namespace {
 // Points farther away [m] are refused: squares of such numbers, and of speeds between them, must be finite
 // floats.
 constexpr double kFarthest = 1e9;
-
-layout::vec3 packed3(Vec3d v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 
 std::vector<Vec3f> inMetres(std::span<const Vec3f> strand, double metresPerUnit) {
   std::vector<Vec3f> points;
