@@ -50,6 +50,39 @@ TEST(BodyWatch, CountsWhatWasOutside) {
   EXPECT_EQ(watch.numbers().particle, 1);
 }
 
+// Of each body, and for good; what is no deeper than it keeps hair out is not.
+TEST(BodyWatch, CountsWhatIsCaught) {
+  Groom groom;
+  groom.metresPerUnit = 1;
+  groom.addStrand(std::vector<Vec3f>{{0, 9, 0}, {1, 0, 0}, {1, 0, 0}, {1, 0, 0}});
+  Body bending{.shape = BodyShape::grid};
+  auto mesh = std::make_shared<BendingMesh>();
+  mesh->cell = 0.004;
+  bending.mesh = mesh;
+  EXPECT_NEAR(keepsOutWithin(bending), 0.0021, 1e-12);
+  const std::vector<Body> bodies{{.radius = 0.1}, {.radius = 0.2}};
+  EXPECT_NEAR(keepsOutWithin(bodies[0]), 1e-4, 1e-12);
+  const std::vector<BodyPose> poses{{{0, 0, 0}, {}}, {{3, 0, 0}, {}}};
+  BodyWatch watch(groom, bodies, 1);
+  const auto look = [&](float a, float b, float c) {
+    watch.look(std::vector<Vec3f>{{0, 9, 0}, {a, 0, 0}, {b, 0, 0}, {c, 0, 0}}, HeadPose{}, poses);
+  };
+  look(0, 1, 1);
+  look(0.0999f, 0.09995f, 1);  // the first began there, and the second is hardly in it
+  EXPECT_EQ(watch.numbers().caught, 0u);
+  look(1, 0.099f, 3.1f);
+  EXPECT_EQ(watch.numbersOf(0).caught, 1u);
+  EXPECT_EQ(watch.numbersOf(1).caught, 1u);
+  EXPECT_NEAR(watch.numbersOf(1).deepest, 0.1, 1e-6);
+  EXPECT_EQ(watch.numbersOf(1).particle, 3);
+  EXPECT_NEAR(watch.numbersOf(0).deepest, 0.001, 1e-6);
+  look(1, 1, 1);
+  look(0.05f, 0.099f, 1);
+  EXPECT_EQ(watch.numbers().caught, 3u);
+  EXPECT_EQ(watch.numbers().inside, 0u);
+  EXPECT_EQ(watch.numbers().particle, 3);
+}
+
 // The rounding of positions, or of a grid, puts hair that lies on a surface a little below it.
 TEST(BodyWatch, HairThatLiesOnABodyIsNotInside) {
   Groom groom;

@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "tests/motion/gltf_samples.h"
 #include "tests/program/run_program.h"
@@ -95,8 +97,9 @@ TEST(BodyProgram, AMeshIsTheSameFromEitherFormat) {
 }
 
 // How deep a particle is in a sphere follows from the points of hair.usda: the radius less the distance from
-// its centre. The number of the JSON is the largest of all frames and bodies, in millimetres.
-TEST(BodyProgram, TheDeepestPenetrationIsThatOfTheFrames) {
+// its centre. The number of the JSON is the largest of all frames and bodies, in millimetres; each body has
+// its own, and the number of particles that are ever deeper than it keeps hair out.
+TEST(BodyProgram, HairBetweenBodiesThatCloseIsToldAsTheFramesHaveIt) {
   const auto folder = scratchFolder("body_depth");
   writeFiles(folder);
   // Two spheres pass through each other, with the strand between them: it cannot be outside of both.
@@ -107,16 +110,34 @@ TEST(BodyProgram, TheDeepestPenetrationIsThatOfTheFrames) {
         y, speed);
   };
   const json out = fallOn(folder, sphere(-0.12, 0.4) + sphere(0.12, -0.4));
-  double deepest = 0;  // [m]
+  std::array<double, 2> deepest{};  // [m]
+  std::array<std::set<std::size_t>, 2> caught;
   for (const auto& [frame, points] : test::readUsd(folder / "out/hair.usda").points) {
-    for (double side : {-1.0, 1.0}) {
-      const Vec3d centre{0.1, side * (0.12 - 0.4 * frame / 24), 0};
-      for (std::size_t i = 2; i < points.size(); ++i)  // the first two follow the head
-        deepest = std::max(deepest, 0.05 - length(Vec3d(points[i]) * 0.01 - centre));
+    for (const std::size_t b : {0, 1}) {
+      const Vec3d centre{0.1, (b == 0 ? -1 : 1) * (0.12 - 0.4 * frame / 24), 0};
+      for (std::size_t i = 2; i < points.size(); ++i) {  // the first two follow the head
+        const double depth = 0.05 - length(Vec3d(points[i]) * 0.01 - centre);
+        deepest[b] = std::max(deepest[b], depth);
+        if (depth > 1e-4) caught[b].insert(i);
+      }
     }
   }
-  ASSERT_GT(deepest, 1e-3);
-  EXPECT_NEAR(out["deepest_penetration_mm"].get<double>(), 1000 * deepest, 1e-3);
+  ASSERT_GT(std::max(deepest[0], deepest[1]), 1e-3);
+  EXPECT_NEAR(out["deepest_penetration_mm"].get<double>(), 1000 * std::max(deepest[0], deepest[1]), 1e-3);
+  ASSERT_EQ(out["bodies"].size(), 2u);
+  for (const std::size_t b : {0, 1}) {
+    const json& body = out["bodies"][b];
+    EXPECT_NEAR(body["deepest_mm"].get<double>(), 1000 * deepest[b], 1e-3) << body;
+    EXPECT_EQ(body["caught"], caught[b].size()) << body;
+    EXPECT_TRUE(body["cell_mm"].is_null()) << body;
+    EXPECT_EQ(std::ranges::count_if(out["warnings"],
+                                    [&](const json& warning) {
+                                      return warning.get<std::string>().starts_with(
+                                          fmt::format("{} particle", caught[b].size()));
+                                    }) > 0,
+              !caught[b].empty())
+        << out["warnings"];
+  }
 }
 
 TEST(BodyProgram, MistakesNameTheBody) {

@@ -18,8 +18,10 @@
 #include "ringlet/groom/hair_styles.h"
 #include "ringlet/groom/root_ends.h"
 #include "ringlet/scenes/load/load_scene.h"
+#include "tests/bodies/body_samples.h"
 #include "tests/groom/groom_samples.h"
 #include "tests/groom/style_samples.h"
+#include "tests/motion/mesh_motion_samples.h"
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
@@ -484,16 +486,24 @@ TEST_F(GroomFaults, AGroomThatStandsOnFeetTurnsAboutItsOwnHeadWhereThatIsAsked) 
 TEST_F(GroomFaults, ABodyThatHairDoesNotMeetIsNoSuccess) {
   write("groom.obj", hairOfAHead(4));
   for (const bool isFar : {false, true}) {
-    writeText("scene.toml",
-              fmt::format("[groom]\nfile = \"groom.obj\"\n[[body]]\nshape = \"sphere\"\nradius = "
-                          "0.085\nposition = [{}, 0, 0]\n",
-                          isFar ? 3 : 0));
-    const ProgramResult run =
-        runProgram(folder_, {"simulate", "scene.toml", "--backend", "reference", "--frames", "2",
-                             "--no-sheet", "--no-usd", "--overwrite", "-o", "out"});
-    ASSERT_EQ(run.exitCode, 0) << run.err;
-    EXPECT_EQ(contains(run.out, "hair did not meet them"), isFar) << run.out;
-    EXPECT_EQ(contains(run.out, "deepest"), !isFar) << run.out;
+    TriangleMesh ball = sphereMesh(0.085, 3);
+    for (Vec3d& point : ball.points) point.x += isFar ? 3 : 0;
+    writeMeshMotion(folder_, "ball", ball.triangles, {ball.points, ball.points}, 24);
+    const std::string place = fmt::format("position = [{}, 0, 0]\n", isFar ? 3 : 0),
+                      mesh = "shape = \"mesh\"\nunit = 1\nfile = \"ball.obj\"\n",
+                      bends = mesh + "deforms = true\ncache = \"ball.pc2\"\n";
+    for (const std::string& body : {"shape = \"sphere\"\nradius = 0.085\n" + place,
+                                    "shape = \"capsule\"\nradius = 0.085\nlength = 0.01\n" + place, mesh,
+                                    bends + "region = \"all\"\n", bends + "sides = \"both\"\n"}) {
+      SCOPED_TRACE(body);
+      writeText("scene.toml", "[groom]\nfile = \"groom.obj\"\n[[body]]\nname = \"ball\"\n" + body);
+      const ProgramResult run =
+          runProgram(folder_, {"simulate", "scene.toml", "--backend", "reference", "--frames", "2",
+                               "--no-sheet", "--no-usd", "--overwrite", "-o", "out"});
+      ASSERT_EQ(run.exitCode, 0) << run.err;
+      EXPECT_EQ(contains(run.out, "hair did not meet them"), isFar) << run.out;
+      EXPECT_EQ(contains(run.out, "deepest"), !isFar) << run.out;
+    }
   }
 }
 

@@ -58,6 +58,12 @@ RunOutcome outcome() {
   outcome.host = {.submit = 0.0625, .fence = 1.125};
   outcome.copied = 0.375;
   outcome.hair.kernel = "a kernel";
+  outcome.bodies = {{.name = "a body",
+                     .shape = "mesh",
+                     .bends = true,
+                     .cell = 0.0025,
+                     .within = 0.001375,
+                     .numbers = {.deepest = 0.0625, .inside = 9, .caught = 12}}};
   outcome.hair.isTuned = true;
   outcome.hair.deviceBytes = 123456;
   outcome.hair.compileMilliseconds = 1500;
@@ -113,6 +119,16 @@ TEST(RunReport, EveryNumberIsInItsUnit) {
       {"crossings", 108},
       {"deepest_penetration_mm", 62.5},
       {"inside_bodies", 9},
+      {"bodies",
+       {{{"name", "a body"},
+         {"shape", "mesh"},
+         {"deforms", true},
+         {"sides", "outside"},
+         {"cell_mm", 2.5},
+         {"within_mm", 1.375},
+         {"deepest_mm", 62.5},
+         {"inside", 9},
+         {"caught", 12}}}},
       {"device", "a device"},
       {"driver", "a driver"},
       {"kernel", "a kernel"},
@@ -171,8 +187,9 @@ TEST(RunReport, TheTextHasTheSameNumbers) {
         "105 in the worst frame, momentum error 0.016; 106 pair tests, 107 rebuilds",
         "103 of 102 pairs of strands", "110 strands meet as a volume, with up to 1.1 of its range",
         "0.3750 of the radii beyond rest at the deepest, 12.5 in all", "recall 0.875", "crossings     108",
-        "deepest 62.5 mm (strand 4 particle 5, frame 7)", "9 particles began inside", "note          a note",
-        "off by at most 0.244 mm"})
+        "deepest 62.5 mm (strand 4 particle 5, frame 7)",
+        "a body: cells of 2.5 mm, keeps hair out within 1.38 mm", "9 particles began inside",
+        "note          a note", "off by at most 0.244 mm"})
     EXPECT_NE(text.find(part), std::string::npos) << part << " is missing in:\n" << text;
 }
 

@@ -78,6 +78,10 @@ std::string runText(const RunNames& names, const Settings& settings, const RunOu
                 ? fmt::format("; {} particles began inside and are there still\n", bodies->inside)
                 : "\n";
   }
+  for (const BodyOutcome& body : outcome.bodies)
+    if (body.cell)
+      text += fmt::format("                {}: cells of {:.3g} mm, keeps hair out within {:.3g} mm\n",
+                          body.name, 1000 * *body.cell, 1000 * body.within);
   for (const std::string& note : outcome.notes) text += fmt::format("  note          {}\n", note);
   for (const auto& path : outcome.outputs) {
     text += fmt::format("  {}  {}", path == outcome.outputs.front() ? "written     " : "            ",

@@ -24,6 +24,11 @@ struct Bounds {
   bool contains(Vec3d p) const {
     return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y && low.z <= p.z && p.z <= high.z;
   }
+  /// 0 inside.
+  double distanceTo(Vec3d p) const {
+    return length(Vec3d{std::max({low.x - p.x, 0., p.x - high.x}), std::max({low.y - p.y, 0., p.y - high.y}),
+                        std::max({low.z - p.z, 0., p.z - high.z})});
+  }
   /// Whether it has a size along each axis.
   bool hasRoom() const { return low.x < high.x && low.y < high.y && low.z < high.z; }
   Vec3d middle() const { return (low + high) / 2.0; }

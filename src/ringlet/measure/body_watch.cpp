@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "ringlet/base/assert.h"
+#include "ringlet/base/bounds.h"
 #include "ringlet/bodies/body_distance.h"
 #include "ringlet/bodies/near_triangles.h"
 #include "ringlet/bodies/triangle_tree.h"
@@ -13,15 +14,19 @@ namespace ringlet {
 namespace {
 
 // The largest slope of a distance: sqrt(3) where it is interpolated in a grid, since corners of an edge
-// differ by at most the edge's length; and 2 beyond the grid.
+// differ by at most the edge's length; 2 beyond the grid; 1 to triangles.
 constexpr double kSteepest = 2;
 
 // Hair that lies on a surface is on either side of it, because of rounding in positions and distance grids.
 // Such a particle is not inside the body; but one that started there has not been outside either [m].
 constexpr double kOnSurface = 1e-5;
 
+// The solver takes a smaller depth for outside, and corrects it in the next step: kOutside of
+// shaders/equations/body_contact.glsl [m].
+constexpr double kCorrected = 1e-4;
+
 // What was seen of a particle and a body in all calls of look.
-enum Seen : std::uint8_t { kInside, kOutside, kOnIt };
+enum Seen : std::uint8_t { kInside, kOutside, kOnIt, kCaught };
 
 // A ball that is outside of a body. Particles in it need no distance; the next ones of the strand may be.
 struct Clearance {
@@ -37,12 +42,20 @@ struct Clearance {
 // More triangles than this in a cell take longer than the way through the tree.
 constexpr std::size_t kMostListed = 64;
 
-// The triangles of a body that bends, in the world; without points as it was at first.
+// Of a body that bends, in the world; without points as it was at first.
+TriangleMesh meshOf(const Body& body, const BodyPose& pose, std::span<const Vec3d> points) {
+  std::vector<Vec3d> own(points.begin(), points.end());
+  for (std::size_t i = 0; points.empty() && i < body.mesh->points.size(); ++i)
+    own.push_back(pose.position + rotate(pose.rotation, body.mesh->points[i]));
+  return {body.mesh->surface.pointsOf(own), body.mesh->surface.triangles};
+}
+
 class BentSurface {
  public:
   BentSurface(const Body& body, const BodyPose& pose, std::span<const Vec3d> points)
       : thickness_(body.thickness),
         mesh_(meshOf(body, pose, points)),
+        bounds_(boundsOf(mesh_)),
         near_(mesh_, body.thickness),
         witnessOf_(near_.cellCount(), kNone) {}
 
@@ -54,6 +67,7 @@ class BentSurface {
     const bool isOutside =
         !isNear && (cell == NearTriangles::kNoCell || near_.kindOf(cell) == NearTriangles::Cell::outside);
     Seat seat{place, near_.reach(), false};
+    if (cell == NearTriangles::kNoCell) seat.distance = std::max(seat.distance, bounds_.distanceTo(place));
     if (!isOutside) {
       if (isNear) seat.distance = nearDistance(place, cell);
       seat.isInside = isInside(seat, cell, isNear);
@@ -72,13 +86,6 @@ class BentSurface {
     double distance = -1e300;  // at first there is none
     bool isInside = false;
   };
-
-  static TriangleMesh meshOf(const Body& body, const BodyPose& pose, std::span<const Vec3d> points) {
-    std::vector<Vec3d> own(points.begin(), points.end());
-    for (std::size_t i = 0; points.empty() && i < body.mesh->points.size(); ++i)
-      own.push_back(pose.position + rotate(pose.rotation, body.mesh->points[i]));
-    return {body.mesh->surface.pointsOf(own), body.mesh->surface.triangles};
-  }
 
   double nearDistance(Vec3d place, std::size_t cell) {
     return near_.listedIn(cell) > kMostListed ? tree().nearest(place).distance
@@ -115,6 +122,7 @@ class BentSurface {
 
   double thickness_;
   TriangleMesh mesh_;
+  Bounds bounds_;
   NearTriangles near_;
   std::optional<TriangleTree> tree_;  // made when it is asked
   Seat last_;
@@ -124,41 +132,46 @@ class BentSurface {
 
 }  // namespace
 
+double keepsOutWithin(const Body& body) { return kCorrected + (body.bends() ? body.mesh->cell / 2 : 0); }
+
 BodyWatch::BodyWatch(const Groom& groom, std::span<const Body> bodies, int rootCount)
     : firstPoint_(groom.firstPoint),
       bodies_(bodies.begin(), bodies.end()),
       rootCount_(static_cast<std::size_t>(rootCount)),
-      seen_(groom.points.size() * bodies.size(), kInside) {
+      seen_(groom.points.size() * bodies.size(), kInside),
+      numbers_(bodies.size()) {
   // Cloth has no inside.
   const std::size_t count = groom.points.size();
   for (std::size_t b = 0; b < bodies.size(); ++b)
     if (bodies[b].isCloth()) std::fill_n(seen_.begin() + std::ptrdiff_t(b * count), count, kOutside);
 }
 
-// distanceAt: of a place relative to the head's origin [m]; steepest: its slope at most.
+// distanceAt: of a place relative to the head's origin [m].
 template <class Distance>
-void BodyWatch::lookAt(std::size_t body, std::span<const Vec3f> positions, double steepest,
-                       const Distance& distanceAt) {
+void BodyWatch::lookAt(std::size_t body, std::span<const Vec3f> positions, const Distance& distanceAt) {
+  BodyNumbers& numbers = numbers_[body];
+  const double within = keepsOutWithin(bodies_[body]);
   for (std::size_t s = 0; s + 1 < firstPoint_.size(); ++s) {
     Clearance clearance;
     for (std::size_t i = firstPoint_[s] + rootCount_; i < firstPoint_[s + 1]; ++i) {
       const Vec3d place(positions[i]);
       std::uint8_t& seen = seen_[body * positions.size() + i];
       if (clearance.has(place)) {
-        seen = kOutside;
+        if (seen != kCaught) seen = kOutside;
         continue;
       }
       const double distance = distanceAt(place);
-      clearance = {place, distance / steepest};
+      clearance = {place, distance / kSteepest};
       // Particles in the ball are not measured, so their distance may be this small.
-      numbers_.nearest = std::min(numbers_.nearest, distance - std::max(0., clearance.radius));
-      if (distance >= 0) seen = kOutside;
+      numbers.nearest = std::min(numbers.nearest, distance - std::max(0., clearance.radius));
+      if (distance >= 0 && seen != kCaught) seen = kOutside;
       if (seen == kInside && distance >= -kOnSurface) seen = kOnIt;
-      if (seen != kOutside || !(-distance > numbers_.deepest)) continue;
-      numbers_.deepest = -distance;
-      numbers_.strand = static_cast<std::int64_t>(s);
-      numbers_.particle = static_cast<std::int64_t>(i - firstPoint_[s]);
-      numbers_.frame = looks_;
+      if (seen == kOutside && -distance > within) seen = kCaught;
+      if ((seen != kOutside && seen != kCaught) || !(-distance > numbers.deepest)) continue;
+      numbers.deepest = -distance;
+      numbers.strand = static_cast<std::int64_t>(s);
+      numbers.particle = static_cast<std::int64_t>(i - firstPoint_[s]);
+      numbers.frame = looks_;
     }
   }
 }
@@ -173,29 +186,47 @@ void BodyWatch::look(std::span<const Vec3f> positions, const HeadPose& head, std
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const Body& body = bodies_[b];
     if (!body.bends()) {
-      lookAt(b, positions, kSteepest,
-             [&](Vec3d place) { return distanceTo(body, poses[b], head.position + place); });
+      lookAt(b, positions, [&](Vec3d place) { return distanceTo(body, poses[b], head.position + place); });
       continue;
     }
     const std::span<const Vec3d> samples = points.empty() ? std::span<const Vec3d>() : points[bending++];
-    if (body.isCloth()) continue;
-    BentSurface surface(body, poses[b],
-                        points.empty() ? std::span<const Vec3d>() : samples.last(body.mesh->points.size()));
-    lookAt(b, positions, 1, [&](Vec3d place) { return surface.distanceTo(head.position + place); });
+    const std::span<const Vec3d> last = points.empty() ? samples : samples.last(body.mesh->points.size());
+    if (body.isCloth()) {
+      const Bounds bounds = boundsOf(meshOf(body, poses[b], last));
+      lookAt(b, positions, [&](Vec3d place) { return bounds.distanceTo(head.position + place); });
+      continue;
+    }
+    BentSurface surface(body, poses[b], last);
+    lookAt(b, positions, [&](Vec3d place) { return surface.distanceTo(head.position + place); });
   }
   ++looks_;
 }
 
-BodyNumbers BodyWatch::numbers() const {
-  BodyNumbers numbers = numbers_;
-  const std::size_t count = bodies_.empty() ? 0 : seen_.size() / bodies_.size();
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    for (std::size_t s = 0; s + 1 < firstPoint_.size(); ++s) {
-      for (std::size_t i = firstPoint_[s] + rootCount_; i < firstPoint_[s + 1]; ++i)
-        numbers.inside += seen_[b * count + i] == kInside ? 1 : 0;
+BodyNumbers BodyWatch::numbersOf(std::size_t body) const {
+  BodyNumbers numbers = numbers_[body];
+  const std::span<const std::uint8_t> seen = std::span(seen_).subspan(body * firstPoint_.back());
+  for (std::size_t s = 0; s + 1 < firstPoint_.size(); ++s) {
+    for (std::size_t i = firstPoint_[s] + rootCount_; i < firstPoint_[s + 1]; ++i) {
+      numbers.inside += seen[i] == kInside ? 1 : 0;
+      numbers.caught += seen[i] == kCaught ? 1 : 0;
     }
   }
   return numbers;
+}
+
+BodyNumbers BodyWatch::numbers() const {
+  BodyNumbers all;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    BodyNumbers numbers = numbersOf(b);
+    numbers.inside += all.inside;
+    numbers.caught += all.caught;
+    numbers.nearest = std::min(numbers.nearest, all.nearest);
+    if (numbers.deepest <= all.deepest)
+      numbers.deepest = all.deepest, numbers.strand = all.strand, numbers.particle = all.particle,
+      numbers.frame = all.frame;
+    all = numbers;
+  }
+  return all;
 }
 
 }  // namespace ringlet

@@ -12,7 +12,11 @@
 
 namespace ringlet {
 
-/// Over all frames given to look.
+/// Depth up to which a body keeps hair out of its triangles or its form [m]: of a mesh that bends, half a
+/// cell of its grid more. Of a mesh that does not, the form is its grid.
+double keepsOutWithin(const Body& body);
+
+/// Over all frames given to look; of one body or all.
 struct BodyNumbers {
   double deepest = 0;                       // deepest place of a particle in a body after it was outside of
                                             // it [m]
@@ -20,8 +24,10 @@ struct BodyNumbers {
   std::int64_t frame = -1;                  // the call of look in which it was seen, from 0
   std::size_t inside = 0;  // number of particles, times bodies, that have never been outside or on the
                            // surface
+  std::size_t caught = 0;  // of those that had been, that were deeper than keepsOutWithin: between surfaces
+                           // that close, hair has no place
   double nearest = 1e300;  // smallest distance from a body, or less: at least half of it, since distant
-                           // particles are hardly measured [m]
+                           // particles are hardly measured; of cloth, from the box about it [m]
 };
 
 class BodyWatch {
@@ -37,23 +43,23 @@ class BodyWatch {
             BodyPoints points = {});
 
   BodyNumbers numbers() const;
+  BodyNumbers numbersOf(std::size_t body) const;
   /// Archives what was seen so far, for a checkpoint.
   void archive(Archive& archive) {
     archive.values(std::span(seen_));
-    archive.value(numbers_);
+    archive.values(std::span(numbers_));
     archive.value(looks_);
   }
 
  private:
   template <class Distance>
-  void lookAt(std::size_t body, std::span<const Vec3f> positions, double steepest,
-              const Distance& distanceAt);
+  void lookAt(std::size_t body, std::span<const Vec3f> positions, const Distance& distanceAt);
 
   std::vector<std::uint32_t> firstPoint_;
   std::vector<Body> bodies_;
   std::size_t rootCount_;
-  std::vector<std::uint8_t> seen_;  // a value of Seen, by body, then particle
-  BodyNumbers numbers_;
+  std::vector<std::uint8_t> seen_;    // a value of Seen, by body, then particle
+  std::vector<BodyNumbers> numbers_;  // of each body, without inside and caught
   std::int64_t looks_ = 0;
 };
 

@@ -18,7 +18,7 @@ namespace {
 
 // No text, as a cache's magic (cache_format.h).
 constexpr std::string_view kMagic = "\x89RGK\r\n\x1a\n";
-constexpr std::uint64_t kVersion = 4;
+constexpr std::uint64_t kVersion = 5;
 constexpr std::size_t kHeaderBytes = 32;
 constexpr std::size_t kMostDifferences = 4;  // told of
 

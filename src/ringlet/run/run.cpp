@@ -22,6 +22,7 @@
 #include "ringlet/run/stepper.h"
 #include "ringlet/run/trace_file.h"
 #include "ringlet/run/writer_thread.h"
+#include "ringlet/scene/body_forms.h"
 #include "ringlet/scenes/frames/scene_frames.h"
 #include "ringlet/version.h"
 
@@ -96,6 +97,7 @@ class Run::Work {
   }
   Status finishFiles();
   Status finishTrace() { return trace_ ? trace_->finish() : Status{}; }
+  void tellBodies();
   Status tellReports();
   void tellTimes();
   void tellWarnings();
@@ -194,8 +196,7 @@ Status Run::Work::makeSink() {
     }
     writers_.emplace(scene_, options_, std::move(hairs), done);
   }
-  if (!std::ranges::all_of(scene_.bodies, &Body::isCloth))  // cloth has no inside
-    bodyWatch_.emplace(scene_.groom, scene_.bodies, scene_.settings.rootCount);
+  if (!scene_.bodies.empty()) bodyWatch_.emplace(scene_.groom, scene_.bodies, scene_.settings.rootCount);
   const bool writesFrames = !animationsOf(options_).empty() || options_.writesSheet || events_.written;
   FrameReaders readers{.bodies = bodyWatch_ ? &*bodyWatch_ : nullptr,
                        .observe = {},
@@ -365,6 +366,22 @@ Status Run::Work::finishFiles() {
   return {};
 }
 
+void Run::Work::tellBodies() {
+  outcome_.bodyNumbers = bodyWatch_->numbers();
+  for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
+    const Body& body = scene_.bodies[b];
+    BodyOutcome told{.name = body.name,
+                     .shape = std::string(nameOf(body.shape)),
+                     .bends = body.bends(),
+                     .isCloth = body.isCloth(),
+                     .within = keepsOutWithin(body),
+                     .numbers = bodyWatch_->numbersOf(b)};
+    if (body.bends() && !body.isCloth()) told.cell = body.mesh->cell;
+    if (!body.bends() && body.grid) told.cell = body.grid->cell;
+    outcome_.bodies.push_back(std::move(told));
+  }
+}
+
 Status Run::Work::tellReports() {
   const auto reports = hair_->reports();
   if (!reports) return reports.error();
@@ -379,7 +396,7 @@ Status Run::Work::tellReports() {
   }
   outcome_.positionsHash = positionsHash(outcome_.positions);
   outcome_.hair = hair_->facts();
-  if (bodyWatch_) outcome_.bodyNumbers = bodyWatch_->numbers();
+  if (bodyWatch_) tellBodies();
   stepper_->tell(reports->contacts, outcome_);
   return {};
 }
@@ -420,6 +437,8 @@ void Run::Work::tellWarnings() {
   if (folder_) add(folder_->warnings());
   add(stepper_->warnings());
   if (outcome_.contacts) add(outcome_.contacts->warnings());
+  for (const BodyOutcome& body : outcome_.bodies)
+    if (const auto caught = caughtWarning(body)) outcome_.warnings.push_back(*caught);
   add(outcome_.hair.messages);
 }
 

@@ -30,6 +30,18 @@ struct FrameMilliseconds {
   double first = 0, median = 0, least = 0;
 };
 
+/// What became of hair at a body.
+struct BodyOutcome {
+  std::string name, shape;
+  bool bends = false, isCloth = false;
+  std::optional<double> cell{};  // edge of a cell of its grid [m]; none of an exact form and of cloth
+  double within = 0;             // keepsOutWithin [m]
+  BodyNumbers numbers;
+};
+
+/// In words, if hair was caught in it: where it was deepest, and what may help.
+std::optional<std::string> caughtWarning(const BodyOutcome& body);
+
 /// Times of stages and waits are per finished frame [ms].
 struct RunOutcome {
   int frameCount = 0;  // finished
@@ -52,6 +64,7 @@ struct RunOutcome {
                                            // worst frame if contacts are measured, else of the last frame
   std::optional<ContactNumbers> contactNumbers;  // if contacts are measured
   std::optional<BodyNumbers> bodyNumbers;        // over all frames; if there are bodies
+  std::vector<BodyOutcome> bodies;               // each of them
   HairFacts hair;                                // at the end
   std::vector<Vec3f> positions;  // of the last frame, as SceneHair::positions; at the start if there was no
                                  // frame

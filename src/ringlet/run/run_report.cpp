@@ -1,6 +1,9 @@
 // Implements run_report.h.
 #include "ringlet/run/run_report.h"
 
+#include <fmt/format.h>
+
+#include "ringlet/base/quoted.h"
 #include "ringlet/run/report_rows.h"
 
 namespace ringlet {
@@ -23,6 +26,23 @@ constexpr ReportRow<FrameMilliseconds> kFrameTimes[] = {
      [](const FrameMilliseconds& f) -> Json { return f.median; }},
     {{"least", "ms", "Of all frames, the least."},
      [](const FrameMilliseconds& f) -> Json { return f.least; }},
+};
+
+constexpr ReportRow<BodyOutcome> kBodies[] = {
+    {{"name", "", "Its name."}, [](const BodyOutcome& b) -> Json { return b.name; }},
+    {{"shape", "", "Its shape."}, [](const BodyOutcome& b) -> Json { return b.shape; }},
+    {{"deforms", "", "Whether it bends."}, [](const BodyOutcome& b) -> Json { return b.bends; }},
+    {{"sides", "", "From which hair is kept off: outside or both."},
+     [](const BodyOutcome& b) -> Json { return b.isCloth ? "both" : "outside"; }},
+    {{"cell_mm", "mm", "Edge of a cell of its distance grid; null of an exact form and of cloth."},
+     [](const BodyOutcome& b) { return b.cell ? Json(1000 * *b.cell) : Json(); }},
+    {{"within_mm", "mm", "Depth up to which it keeps hair out."},
+     [](const BodyOutcome& b) -> Json { return 1000 * b.within; }},
+    {{"deepest_mm", "mm", "As deepest_penetration_mm."},
+     [](const BodyOutcome& b) -> Json { return 1000 * b.numbers.deepest; }},
+    {{"inside", "", "As inside_bodies."}, [](const BodyOutcome& b) -> Json { return b.numbers.inside; }},
+    {{"caught", "", "Particles that were deeper than within_mm once they had been outside."},
+     [](const BodyOutcome& b) -> Json { return b.numbers.caught; }},
 };
 
 constexpr Row kWallTimes[] = {
@@ -144,6 +164,12 @@ constexpr Row kRows[] = {
      [](const Source& f) -> Json {
        return f.outcome.bodyNumbers ? Json(f.outcome.bodyNumbers->inside) : Json();
      }},
+    {{"bodies", "", "A list of all bodies.", keysOf<kBodies>},
+     [](const Source& f) {
+       Json bodies = Json::array();
+       for (const BodyOutcome& body : f.outcome.bodies) bodies.push_back(objectOf<kBodies>(body));
+       return bodies;
+     }},
     {{"device", "", "Its name."}, [](const Source& f) -> Json { return f.outcome.hair.device; }},
     {{"driver", "", "Its name and version."}, [](const Source& f) -> Json { return f.outcome.hair.driver; }},
     {{"kernel", "", "Form and shape of the strand kernel."},
@@ -179,6 +205,17 @@ constexpr Row kRows[] = {
 };
 
 }  // namespace
+
+std::optional<std::string> caughtWarning(const BodyOutcome& body) {
+  if (body.numbers.caught == 0) return std::nullopt;
+  return fmt::format(
+      "{} particle{} went deeper into the body {} than the {:.3g} mm within which it keeps hair out: up to {:.3g} "
+      "mm, strand {} particle {} in frame {}. Surfaces that close on each other leave hair no place; a larger "
+      "thickness keeps them apart, and more steps a frame follow a faster body",
+      body.numbers.caught, body.numbers.caught == 1 ? "" : "s", quoted(std::string_view(body.name)),
+      1000 * body.within, 1000 * body.numbers.deepest, body.numbers.strand, body.numbers.particle,
+      body.numbers.frame + 1);
+}
 
 std::string runReport(const RunNames& names, const Settings& settings, const RunOutcome& outcome) {
   const Json json = objectOf<kRows>(Source{names, settings, outcome});
