@@ -10,8 +10,10 @@
 #include <span>
 #include <vector>
 
+#include "ringlet/base/bounds.h"
 #include "ringlet/bodies/bust_mesh.h"
 #include "ringlet/bodies/triangle_mesh.h"
+#include "ringlet/bodies/triangle_tree.h"
 #include "ringlet/measure/head_fit.h"
 
 namespace ringlet::bust_motion_test {
@@ -32,7 +34,7 @@ double volumeOf(const std::vector<Vec3d>& points, const MeshMotion& mesh) {
 }
 
 TEST(BustMotion, GoesFromRestToRestWithoutAJolt) {
-  const auto bust = makeBustMotion();
+  const auto bust = generatedMotion("bust");
   const std::vector<Vec3d> rest = makeBustMesh().points;
   const double end = bust->lastSeconds();
   EXPECT_EQ(bust->firstSeconds(), 0);
@@ -56,7 +58,7 @@ TEST(BustMotion, GoesFromRestToRestWithoutAJolt) {
 }
 
 TEST(BustMotion, NodsBy35DegreesAndShrugsBy4Centimetres) {
-  const auto bust = makeBustMotion();
+  const auto bust = generatedMotion("bust");
   const std::vector<Vec3d> rest = bust->pointsAt(0);
   const auto part = [&](const std::vector<Vec3d>& points, auto&& isOfIt) {
     std::vector<Vec3d> some;
@@ -88,7 +90,7 @@ TEST(BustMotion, NodsBy35DegreesAndShrugsBy4Centimetres) {
 }
 
 TEST(BustMotion, IsClosedAndNeverInsideOut) {
-  const auto bust = makeBustMotion();
+  const auto bust = generatedMotion("bust");
   const std::vector<Vec3d> rest = bust->pointsAt(0);
   EXPECT_TRUE(isWatertight({rest, bust->triangles()}));
   const double volume = volumeOf(rest, *bust);
@@ -110,6 +112,36 @@ TEST(BustMotion, IsClosedAndNeverInsideOut) {
               std::acos(least) * 180 / std::numbers::pi, smallest);
   EXPECT_GT(least, 0.5) << "the nod is 35 degrees of 60";
   EXPECT_GT(smallest, 0.3);
+}
+
+// Outside of the bust at all times, from 4 mm at rest, and open in front; what is on the shoulders goes with
+// them, and the wind lifts the hem alone.
+TEST(BustMotion, TheCapeStaysOffTheBust) {
+  const auto bust = generatedMotion("bust"), cape = generatedMotion("cape");
+  const TriangleMesh rest{cape->pointsAt(0), cape->triangles()};
+  EXPECT_TRUE(checkMesh(rest));
+  EXPECT_EQ(cape->lastSeconds(), bust->lastSeconds());
+  const Bounds bounds = boundsOf(rest);
+  EXPECT_GT(bounds.high.y, -0.12) << "the collar stands up";
+  EXPECT_LT(bounds.low.y, -0.42) << "the hem hangs below the bust";
+  for (const Vec3d p : rest.points) EXPECT_FALSE(p.z > 0.02 && std::abs(p.x) < 0.02) << p.x << ", " << p.z;
+  double nearest = 1, shoulder = 0, hem = 0;
+  for (double t = 0; t < bust->lastSeconds() + kFrame; t += kFrame) {
+    const TriangleTree tree({bust->pointsAt(t), bust->triangles()});
+    const std::vector<Vec3d> points = cape->pointsAt(t);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      EXPECT_LT(tree.windingNumber(points[i]), 0.5) << t << " s, point " << i;
+      nearest = std::min(nearest, tree.nearest(points[i]).distance);
+      const double way = length(points[i] - rest.points[i]);
+      (rest.points[i].y > bounds.low.y + 0.2 ? shoulder : hem) =
+          std::max(rest.points[i].y > bounds.low.y + 0.2 ? shoulder : hem, way);
+    }
+  }
+  std::printf("no nearer than %.2f mm, shoulders by %.1f mm, hem by %.1f mm\n", 1000 * nearest,
+              1000 * shoulder, 1000 * hem);
+  EXPECT_GT(nearest, 0.002);
+  EXPECT_NEAR(shoulder, 0.041, 0.01);
+  EXPECT_GT(hem, 0.05);
 }
 
 }  // namespace

@@ -104,6 +104,30 @@ TEST(ScalpProgram, SaysWhereRootsComeIntoABodyThatDoesNotBend) {
   }
 }
 
+// A body's mesh is the scalp: the same bits as where the scalp names the same file, and read once.
+TEST(ScalpProgram, IsTheMeshOfABody) {
+  const auto folder = folderWithFiles("scalp_of_body", 0);
+  const auto strip = readSkinnedMesh(folder / "strip.glb");
+  ASSERT_TRUE(strip) << strip.error().message;
+  std::vector<std::vector<Vec3d>> samples;
+  for (int frame = 0; frame <= 12; ++frame) samples.push_back(strip->pointsAt(frame / 24.0));
+  test::writeMeshMotion(folder, "m", strip->triangles(), samples, 24);
+  for (const std::string mesh :
+       {"file = 'strip.glb'\n", "file = 'm.obj'\ncache = 'm.pc2'\ncache_fps = 24\nunit = 1\nstart = 0.125\n",
+        "file = 'm.usda'\nmesh = 'M'\n"}) {
+    SCOPED_TRACE(mesh);
+    const std::string body =
+        "[[body]]\nname = 'skin'\nshape = 'mesh'\ndeforms = true\nsides = 'both'\n" + mesh;
+    std::vector<std::string> hashes;
+    for (const std::string& scalp : {mesh, std::string("body = 'skin'\n")}) {
+      writeScene(folder / "scene.toml", "[scalp]\n" + scalp + body);
+      std::filesystem::remove_all(folder / "out");
+      hashes.push_back(simulate(folder, "reference")["positions_hash"]);
+    }
+    EXPECT_EQ(hashes[1], hashes[0]);
+  }
+}
+
 // One mesh in every form: roots are on it, and forms with the same samples give the same hair.
 TEST(ScalpProgram, FollowsPointCachesAndSequences) {
   const auto folder = folderWithFiles("scalp_samples", 0);
@@ -257,7 +281,7 @@ TEST(ScalpProgram, SaysWhatIsWrong) {
     const std::string error = refused(folder);
     EXPECT_NE(error.find(part), std::string::npos) << error;
   };
-  says("farthest = 0.1\n", "found neither scalp.file nor scalp.generate");
+  says("farthest = 0.1\n", "found neither scalp.file nor scalp.body");
   says("file = 'none.glb'\n", "none.glb");
   says("file = 'strip.glb'\nmesh = 'skull'\n", "skull");
   says("file = 'strip.glb'\nunit = 0.01\n", "3 of 3 roots are further than 0.01 m");

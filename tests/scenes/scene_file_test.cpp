@@ -60,7 +60,7 @@ const std::string kEverythingElse =
     "[body.moves]\ninterpolation = 'linear'\n[[body.moves.key]]\ntime = 1\n[[body.moves.key]]\ntime = 2\n"
     "position = [1, 0, 0]\n"
     "[[body]]\nshape = 'mesh'\ngenerate = 'head'\n"
-    "[[body]]\nshape = 'mesh'\ngenerate = 'bust'\ndeforms = true\n"
+    "[[body]]\nname = 'shoulders'\nshape = 'mesh'\ngenerate = 'bust'\ndeforms = true\n"
     "[[camera]]\nname = 'close'\neye = [0, 1, 2]\ntarget = [0, 0.5, 0]\nup = [0, 0, 1]\nfield_of_view = 40\n"
     "bind = 'head'\n[[camera]]\nname = 'Shot'\nfile = 'shot.glb'\n"
     "[[field]]\nname = 'fan'\nkind = 'uniform'\nstrength = 3\nposition = [1, 2, 3]\nrotate_degrees = [0, 0, "
@@ -91,6 +91,7 @@ const std::string kFile =
     "other_hand = 0\nseed = 3\n"
     "[motion]\nfile = 'walk.bvh'\njoint = 'Neck'\nunit = 0.01\nskip_frames = 2\n"
     "[[body]]\nshape = 'sphere'\njoint = 'Spine1'\n"
+    "[scalp]\nbody = 'skin'\n[[body]]\nname = 'skin'\nshape = 'mesh'\nfile = 'skin.glb'\ndeforms = true\n"
     "[[field]]\nkind = 'point'\nstrength = -1\njoint = 'Hand'\n[[hold]]\njoint = 'Hand'\n";
 
 const std::string kKeys =
@@ -211,6 +212,7 @@ TEST(SceneFile, EverythingIsRead) {
 
 TEST(SceneFile, EveryOtherGroomAndMotionIsRead) {
   const SceneFile file = parsed(kFile);
+  EXPECT_EQ(file.scalp.body, "skin");
   EXPECT_EQ(file.groom.generate, "swatch");
   EXPECT_EQ(file.groom.particles, 32);
   EXPECT_EQ(file.groom.columns, 3);
@@ -417,15 +419,24 @@ TEST(SceneFile, MistakesAreNamedWithLineAndRemedy) {
       {"[groom]\nfile = 'a.obj'\n[[body]]\nshape = 'mesh'\ngenerate = 'bust'",
        "line 5: found the text 'bust' for body.generate; expected deforms = true beside it"},
       {"[groom]\nfile = 'a.obj'\n[[body]]\nshape = 'mesh'\ngenerate = 'head'\ndeforms = true",
-       "line 5: found the text 'head' for body.generate; expected bust: no other generated mesh deforms"},
+       "line 5: found the text 'head' for body.generate; expected bust or cape: no other generated mesh deforms"},
+      {"[groom]\nfile = 'a.obj'\n[[body]]\nshape = 'mesh'\ngenerate = 'cape'\ndeforms = true",
+       "line 5: found the text 'cape' for body.generate; expected sides = \"both\" beside it"},
       {"[groom]\nfile = 'a.obj'\n[[body]]\nshape = 'mesh'\ngenerate = 'bust'\ndeforms = true\nunit = 1",
        "line 7: found body.unit of the generated bust; only a mesh of a file has it"},
       {"[groom]\nfile = 'a.obj'\n[scalp]\nfarthest = 1",
-       "line 3: found neither scalp.file nor scalp.generate; expected one of the two"},
-      {"[groom]\nfile = 'a.obj'\n[scalp]\nfile = 'b.glb'\ngenerate = 'bust'",
-       "line 5: found scalp.file and scalp.generate; expected one of the two"},
-      {"[groom]\nfile = 'a.obj'\n[scalp]\ngenerate = 'bust'\nup = 'Z'",
-       "line 5: found scalp.up of the generated bust; only a mesh of a file has it"},
+       "line 3: found neither scalp.file nor scalp.body; expected one of the two"},
+      {"[groom]\nfile = 'a.obj'\n[scalp]\nbody = 'bust'",
+       "line 4: found the text 'bust' for scalp.body; expected the name of a body that deforms"},
+      {"[groom]\nfile = 'a.obj'\n[scalp]\nbody = 'bust'\nstart = 1\n[[body]]\nname = 'bust'\nshape = "
+       "'mesh'\ngenerate = 'bust'\ndeforms = true",
+       "line 5: found scalp.start beside scalp.body, whose own it is; expected none"},
+      {"[groom]\nfile = 'a.obj'\n[scalp]\nbody = 'busk'\n[[body]]\nname = 'bust'\nshape = "
+       "'mesh'\ngenerate = 'bust'\ndeforms = true",
+       "line 4: found the text 'busk' for scalp.body; expected the name of a body that deforms; did you mean bust?"},
+      {"[groom]\nfile = 'a.obj'\n[scalp]\nbody = 'head'\n[[body]]\nname = 'head'\nshape = "
+       "'mesh'\ngenerate = 'head'",
+       "line 4: found the text 'head' for scalp.body; expected the name of a body that deforms"},
       {"[groom]\nfile = 'a.obj'\n[[body]]\nshape = 'sphere'\njoint = 'Neck'",
        "line 5: found body.joint, but the head follows no file; expected motion.file"},
       {"[groom]\nfile = 'a.obj'\n[motion]\nfile = 'a.bvh'\n[[body]]\nshape = 'sphere'\njoint = 'Neck'\nmoves "

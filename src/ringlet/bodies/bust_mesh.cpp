@@ -68,11 +68,16 @@ Row rowAt(std::size_t k, double share) {
   return row;
 }
 
-Vec3d placeOn(const Row& row, double angle) {  // 0 in front
+Vec3d onEllipse(const Row& row, double angle) {  // 0 in front
   const auto [yFront, yBack, zFront, zBack, half] = row;
   const double forward = std::cos(angle);
-  Vec3d place{half * std::sin(angle), (yFront + yBack + (yFront - yBack) * forward) / 2,
-              (zFront + zBack + (zFront - zBack) * forward) / 2};
+  return {half * std::sin(angle), (yFront + yBack + (yFront - yBack) * forward) / 2,
+          (zFront + zBack + (zFront - zBack) * forward) / 2};
+}
+
+Vec3d placeOn(const Row& row, double angle) {
+  const double forward = std::cos(angle);
+  Vec3d place = onEllipse(row, angle);
   for (const Bump& bump : kBumps) {
     const double x = (place.x - bump.x) / bump.width, y = (place.y - bump.y) / bump.tall;
     if (forward > 0) place.z += bump.height * forward * std::exp(-x * x - y * y);
@@ -81,6 +86,11 @@ Vec3d placeOn(const Row& row, double angle) {  // 0 in front
 }
 
 }  // namespace
+
+Vec3d placeOnBust(double ring, double angle) {
+  const double row = std::clamp(ring, 0.0, static_cast<double>(std::size(kRows) - 1));
+  return onEllipse(rowAt(static_cast<std::size_t>(row), row - std::floor(row)), angle);
+}
 
 TriangleMesh makeBustMesh() {
   TriangleMesh mesh;

@@ -132,7 +132,9 @@ class BentSurface {
 
 }  // namespace
 
-double keepsOutWithin(const Body& body) { return kCorrected + (body.bends() ? body.mesh->cell / 2 : 0); }
+double keepsOutWithin(const Body& body) {
+  return kCorrected + (body.bends() && !body.isCloth() ? body.mesh->cell / 2 : 0);
+}
 
 BodyWatch::BodyWatch(const Groom& groom, std::span<const Body> bodies, int rootCount)
     : firstPoint_(groom.firstPoint),

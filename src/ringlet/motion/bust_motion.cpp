@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "ringlet/bodies/bust_mesh.h"
+#include "ringlet/bodies/cape_mesh.h"
 
 namespace ringlet {
 namespace {
@@ -24,6 +25,10 @@ constexpr double kShoulderFrom = 0.01, kShoulderTo = 0.16, kChestFrom = -0.36, k
 
 constexpr double kNodStart = 0.25, kNodHeld = 0.4, kShrugStart = 2.1, kShrugHeld = 0.2, kRise = 0.6;  // [s]
 constexpr double kEnd = kShrugStart + 2 * kRise + kShrugHeld;
+
+// A wind lifts the cape's hem: so far at most [m], in waves that run down it and round it.
+constexpr double kBillow = 0.07, kWindStart = 0.1, kWindHeld = 2.1, kWavesASecond = 1.2;
+constexpr double kWavesDown = 0.7, kWavesRound = 3;
 
 // From 0 to 1, without a jolt at either end.
 double eased(double s) {
@@ -42,8 +47,13 @@ Vec3d turnedAbout(Vec3d joint, double angle, Vec3d p) {
   return joint + rotate(fromRotationVector(Vec3d{angle, 0, 0}), p - joint);
 }
 
+// What the bust wears moves with it.
 class BustMotion final : public MeshMotion {
  public:
+  // hang: of each point, how much of the wind it has; empty: there is none.
+  explicit BustMotion(TriangleMesh rest, std::vector<double> hang = {})
+      : rest_(std::move(rest)), hang_(std::move(hang)) {}
+
   const std::vector<Triangle>& triangles() const override { return rest_.triangles; }
   std::size_t pointCount() const override { return rest_.points.size(); }
   double firstSeconds() const override { return 0; }
@@ -53,6 +63,7 @@ class BustMotion final : public MeshMotion {
   std::vector<Vec3d> pointsAt(double t) const override {
     const double nod = pulse(t, kNodStart, kNodHeld), shrug = pulse(t, kShrugStart, kShrugHeld);
     std::vector<Vec3d> points = rest_.points;
+    for (std::size_t i = 0; i < hang_.size(); ++i) points[i] += billow(rest_.points[i], hang_[i], t);
     for (Vec3d& p : points) {
       const double height = p.y + kLean * p.z;
       const double byNeck = share(kNeckFrom, kNeckTo, height), byHead = share(kHeadFrom, kHeadTo, height);
@@ -69,12 +80,24 @@ class BustMotion final : public MeshMotion {
   }
 
  private:
-  TriangleMesh rest_ = makeBustMesh();
+  static Vec3d billow(Vec3d p, double hang, double t) {
+    const double round = std::atan2(p.x, p.z), wind = pulse(t, kWindStart, kWindHeld);
+    const double phase = 2 * std::numbers::pi * (kWavesASecond * t - kWavesDown * hang) + kWavesRound * round;
+    return Vec3d{std::sin(round), 0, std::cos(round)} * (kBillow * hang * wind * (1 + std::sin(phase)) / 2);
+  }
+
+  TriangleMesh rest_;
+  std::vector<double> hang_;
   std::vector<std::string> warnings_;
 };
 
 }  // namespace
 
-std::shared_ptr<const MeshMotion> makeBustMotion() { return std::make_shared<const BustMotion>(); }
+std::shared_ptr<const MeshMotion> generatedMotion(std::string_view name) {
+  if (name == "bust") return std::make_shared<const BustMotion>(makeBustMesh());
+  if (name != "cape") return nullptr;
+  CapeMesh cape = makeCapeMesh();
+  return std::make_shared<const BustMotion>(std::move(cape.mesh), std::move(cape.hang));
+}
 
 }  // namespace ringlet

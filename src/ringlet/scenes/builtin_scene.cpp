@@ -222,7 +222,7 @@ Result<Body> headBody() {
 Status addBust(BuiltinScene& scene) {
   SceneFile file;
   file.bodies.push_back(bustBody());
-  file.scalp.generate = "bust";
+  file.scalp.body = "bust";
   scene.bodies.push_back(bodyOf(file.bodies[0], 0, {0, 1, 0}));
   if (Status loaded = loadBendingBody(file, 0, scene); !loaded) return loaded;
   return loadScalp(file, scene);

@@ -337,13 +337,7 @@ std::span<const SceneField<SceneScalp>> scalpFields() {
        "points; an .obj file with a cache; or a sequence of .obj files, as body.####.obj, where each # stands "
        "for a digit of the frame's number.",
        &S::file},
-      {"generate",
-       "",
-       "none",
-       "Generated mesh in place of a file: a bust that nods and shrugs.",
-       &S::generate,
-       {},
-       "bust"},
+      {"body", "", "none", "In place of a file: name of a body that deforms, whose mesh it is.", &S::body},
       {"cache", "", "none",
        "Point cache of an .obj file, .pc2 or .mdd: its points over time, in the same order, in the world.",
        &S::cache},
@@ -452,10 +446,11 @@ std::span<const SceneField<SceneBody>> bodyFields() {
         {.key = "generate",
          .unit = "",
          .standard = "none",
-         .effect = "Generated mesh in place of a file: the head of generated grooms, or a bust that nods and "
-                   "shrugs, with deforms.",
+         .effect =
+             "Generated mesh in place of a file: the head of generated grooms; a bust that nods and shrugs, "
+             "with deforms; or the cape that it wears, with sides = \"both\", too.",
          .member = &B::generate,
-         .choices = "head, bust",
+         .choices = "head, bust, cape",
          .onlyWith = "mesh"},
         {.key = "unit",
          .unit = "m",

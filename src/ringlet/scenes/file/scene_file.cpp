@@ -124,14 +124,7 @@ class SceneReader {
     if (const toml::table* table = tableOf(file, "", "motion")) readHeadMotion(*table, scene.motion);
     if (const toml::table* table = tableOf(file, "", "scalp")) {
       readFields(*table, "scalp", scalpFields(), scene.scalp);
-      const toml::node *path = table->get("file"), *generator = table->get("generate");
-      if (!path && !generator)
-        missing_.add(lineOf(*table), "found neither scalp.file nor scalp.generate; expected one of the two");
-      if (path && generator)
-        problems_.add(std::max(lineOf(*path), lineOf(*generator)),
-                      "found scalp.file and scalp.generate; expected one of the two");
-      for (const char* key : {"cache", "mesh", "animation", "unit", "up", "cache_fps"})
-        refuseOfGenerated(*table, "scalp", key, scene.scalp.generate);
+      checkScalp(*table, scene.scalp);
     }
     readSimulation(file, scene.simulation);
     if (const toml::table* table = tableOf(file, "", "contacts")) {
@@ -153,6 +146,7 @@ class SceneReader {
       scene.bodies.emplace_back();
       readBody(*table, scene, scene.bodies.back());
     }
+    if (const toml::table* table = tableOf(file, "", "scalp")) checkScalpBody(*table, scene);
     for (const toml::table* table : tablesOf(file, "", "camera")) {
       scene.cameras.emplace_back();
       readCamera(*table, scene, scene.cameras.back());
@@ -649,12 +643,10 @@ class SceneReader {
         problems_.add(
             lineOf(*node),
             fmt::format("found body.{} of cloth (sides = \"both\"), which has no grid; expected none", key));
-    if (const toml::node* node = table.get("generate"); node && body.deforms != (body.generate == "bust"))
-      problems_.addFound(*node, "body.generate",
-                         body.deforms ? "bust: no other generated mesh deforms" : "deforms = true beside it");
+    if (const toml::node* node = table.get("generate")) checkGenerator(*node, body);
     if (body.deforms)
       for (const char* key : {"mesh", "unit", "cache", "cache_fps", "animation"})
-        refuseOfGenerated(table, "body", key, body.generate);
+        refuseOfGenerated(table, key, body.generate);
     for (const char* key : {"scale", "position", "rotate_degrees", "bind", "bind_frame"})
       if (const toml::node* node = table.get(key); node && body.deforms)
         problems_.add(lineOf(*node),
@@ -663,13 +655,44 @@ class SceneReader {
                                   key));
   }
 
+  void checkScalp(const toml::table& table, const SceneScalp& scalp) {
+    const toml::node *path = table.get("file"), *body = table.get("body");
+    if (!path && !body)
+      missing_.add(lineOf(table), "found neither scalp.file nor scalp.body; expected one of the two");
+    for (const char* key : {"file", "cache", "mesh", "animation", "unit", "up", "cache_fps", "start"})
+      if (const toml::node* node = table.get(key); node && !scalp.body.empty())
+        problems_.add(lineOf(*node),
+                      fmt::format("found scalp.{} beside scalp.body, whose own it is; expected none", key));
+  }
+
+  void checkScalpBody(const toml::table& table, const SceneFile& scene) {
+    const toml::node* node = table.get("body");
+    if (!node || !node->is_string()) return;
+    std::vector<std::string> names;
+    for (const SceneBody& body : scene.bodies)
+      if (body.deforms) names.push_back(body.name);
+    if (std::ranges::find(names, scene.scalp.body) == names.end())
+      problems_.addFound(*node, "scalp.body",
+                         "the name of a body that deforms" + nearest(scene.scalp.body, names));
+  }
+
+  // Of generated meshes, all but the head deform, and the cape is cloth.
+  void checkGenerator(const toml::node& node, const SceneBody& body) {
+    const bool isCape = body.generate == "cape";
+    if (body.deforms != (isCape || body.generate == "bust"))
+      problems_.addFound(
+          node, "body.generate",
+          body.deforms ? "bust or cape: no other generated mesh deforms" : "deforms = true beside it");
+    else if (isCape && body.sides != "both")
+      problems_.addFound(node, "body.generate", "sides = \"both\" beside it");
+  }
+
   // What says how a file is read.
-  void refuseOfGenerated(const toml::table& table, const std::string& name, const char* key,
-                         const std::string& generator) {
+  void refuseOfGenerated(const toml::table& table, const char* key, const std::string& generator) {
     if (const toml::node* node = table.get(key); node && !generator.empty())
       problems_.add(
           lineOf(*node),
-          fmt::format("found {}.{} of the generated {}; only a mesh of a file has it", name, key, generator));
+          fmt::format("found body.{} of the generated {}; only a mesh of a file has it", key, generator));
   }
 
   // "head", "still", or a motion of its own; or a joint.

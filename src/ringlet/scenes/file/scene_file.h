@@ -107,10 +107,11 @@ struct SceneMotion {
   SceneRoots roots{};
 };
 
-/// The mesh that roots follow (motion/head_scalp.h); none where there is neither a file nor a generator.
+/// The mesh that roots follow (motion/head_scalp.h); none where there is no file and no body.
 struct SceneScalp {
+  std::string body{};                     // name of one that deforms, whose mesh it is; in place of all
+                                          // that says which mesh
   std::filesystem::path file{}, cache{};  // as for motion/mesh_motion_file.h
-  std::string generate{};                 // bust, in place of a file
   std::string mesh{};                     // empty: the only one
   std::string animation{};                // empty: the head's where it is the same file, else the first
   std::optional<double> metresPerUnit{}, framesPerSecond{};
@@ -118,7 +119,7 @@ struct SceneScalp {
   double farthest = 0.01;  // [m]
   double start = 0;        // when its first key is [s]
 
-  bool isThere() const { return !file.empty() || !generate.empty(); }
+  bool isThere() const { return !file.empty() || !body.empty(); }
 };
 
 struct SceneSimulation {
@@ -143,7 +144,7 @@ struct SceneBody : Body {
   // Of a mesh.
   std::filesystem::path file;
   std::string mesh{};                   // of several in the file; empty: the only one
-  std::string generate;                 // head, or bust, which deforms, in place of a file
+  std::string generate;                 // head; or bust and cape, which deform; in place of a file
   std::optional<double> metresPerUnit;  // unset: the groom's
   int cells = 64;                       // of its distance grid, along its longest side
   double scale = 1;

@@ -5,40 +5,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <utility>
 
 #include "ringlet/base/bounds.h"
 #include "ringlet/bodies/make_bending_mesh.h"
-#include "ringlet/bodies/mesh_file.h"
 #include "ringlet/groom/root_ends.h"
 #include "ringlet/measure/head_fit.h"
-#include "ringlet/motion/bust_motion.h"
-#include "ringlet/motion/mesh_motion_file.h"
+#include "ringlet/scenes/load/moving_mesh.h"
 
 namespace ringlet {
 namespace {
 
 constexpr std::size_t kPointsToFit = 2000;
 constexpr int kMostLooks = 1000;
-
-Result<std::shared_ptr<const MeshMotion>> meshOfBody(const SceneBody& scene, const SceneFile& file,
-                                                     bool isHeads, const LoadedScene& loaded) {
-  if (!scene.generate.empty()) return makeBustMotion();
-  MeshMotionChoice choice{.path = scene.file,
-                          .cache = scene.cache,
-                          .mesh = scene.mesh,
-                          .animation = scene.animation,
-                          .metresPerUnit = scene.metresPerUnit,
-                          .up = {},
-                          .framesPerSecond = scene.framesPerSecond.value_or(loaded.settings.framesPerSecond)};
-  if (isHeads && choice.animation.empty()) choice.animation = file.motion.animation;
-  if (isHeads && !choice.metresPerUnit) choice.metresPerUnit = file.motion.metresPerUnit;
-  if (isHeads) choice.up = fileAxisNamed(file.motion.up);
-  if (!choice.metresPerUnit && isObjMesh(scene.file)) choice.metresPerUnit = loaded.groom.metresPerUnit;
-  return readMeshMotion(choice, file.groom.up == "Z");
-}
 
 double longestStrand(const Groom& groom) {
   double longest = 0;
@@ -140,21 +120,16 @@ Bounds placesOf(const MovingBody& moving, const Body& body, const LoadedScene& l
 Status loadBendingBody(const SceneFile& file, std::size_t index, LoadedScene& loaded) {
   const SceneBody& scene = file.bodies[index];
   Body& body = loaded.bodies[index];
-  std::error_code code;  // files that are not there are no error of this
-  const bool isHeads =
-      !file.motion.file.empty() && std::filesystem::equivalent(file.motion.file, scene.file, code);
-  const auto read = meshOfBody(scene, file, isHeads, loaded);
+  const auto read = readMovingMesh(sourceOf(scene), file, loaded);
   if (!read)
     return Error{fmt::format("the body {}: {}", body.name, read.error().message), read.error().fault};
-  for (const std::string& warning : (*read)->warnings())
-    loaded.warnings.push_back(fmt::format("{}: {}", scene.file.string(), warning));
-  MovingBody moving{index, *read, scene.start, isHeads ? loaded.motion.start : Vec3d{}, body};
+  MovingBody moving{index, read->mesh, scene.start, read->offset, body};
   const bool isCloth = scene.sides == "both", isAll = isCloth || scene.region == "all";
   if (scene.joint.empty() && !scene.moves)
     body.motion = sharedMotion(moving, file.motion.preRollSeconds, loaded, isAll);
 
   const auto carrierAt = [&](double t) { return body.poseAt(t, loaded.motion.poseAt(t)); };
-  TriangleMesh first{moving.pointsSeenAt(0, body, loaded.motion), (*read)->triangles()};
+  TriangleMesh first{moving.pointsSeenAt(0, body, loaded.motion), read->mesh->triangles()};
   const Bounds all = placesOf(moving, body, loaded);
   const Bounds box =
       isAll ? all : common(all, reachOfHair(loaded.groom, loaded.motion.poseAt(0), carrierAt(0)));

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "ringlet/base/quoted.h"
-#include "ringlet/bodies/bust_mesh.h"
 #include "ringlet/bodies/head_mesh.h"
 #include "ringlet/bodies/mesh_file.h"
 #include "ringlet/bodies/mesh_grid.h"
@@ -33,6 +32,7 @@
 #include "ringlet/scenes/load/bending_body.h"
 #include "ringlet/scenes/load/idle_dials.h"
 #include "ringlet/scenes/load/motion_reach.h"
+#include "ringlet/scenes/load/moving_mesh.h"
 #include "ringlet/scenes/load/scalp_doubts.h"
 #include "ringlet/scenes/load/scene_maps.h"
 #include "ringlet/scenes/load/scene_parts.h"
@@ -65,8 +65,9 @@ Result<TriangleMesh> meshOf(const SceneBody& scene, const SceneGroom& groom, dou
     HeadParameters head;
     head.scalpRadius = groom.scalpRadius;
     mesh = makeHeadMesh(head);
-  } else if (scene.generate == "bust") {
-    mesh = makeBustMesh();
+  } else if (!scene.generate.empty()) {
+    const auto motion = generatedMotion(scene.generate);
+    mesh = {motion->pointsAt(0), motion->triangles()};
   } else {
     const bool isPlaced =
         isUsdFile(scene.file) || motionFileKind(scene.file.string()) == MotionFileKind::gltf;
@@ -157,46 +158,34 @@ Result<Motion> loadedMotion(const SceneFile& scene, const Settings& settings,
   return motion;
 }
 
-// Where its file is the head's the two stand in one world, and what the scalp leaves open is the head's.
-Result<std::shared_ptr<const MeshMotion>> meshOfScalp(const SceneFile& file, bool isHeads,
-                                                      const LoadedScene& loaded) {
-  const SceneScalp& scene = file.scalp;
-  const SceneMotion& head = file.motion;
-  if (!scene.generate.empty()) return makeBustMotion();
-  MeshMotionChoice choice{.path = scene.file,
-                          .cache = scene.cache,
-                          .mesh = scene.mesh,
-                          .animation = scene.animation,
-                          .metresPerUnit = scene.metresPerUnit,
-                          .up = fileAxisNamed(scene.up),
-                          .framesPerSecond = scene.framesPerSecond.value_or(loaded.settings.framesPerSecond)};
-  if (isHeads && choice.animation.empty()) choice.animation = head.animation;
-  if (isHeads && !choice.metresPerUnit) choice.metresPerUnit = head.metresPerUnit;
-  if (isHeads && !choice.up) choice.up = fileAxisNamed(head.up);
-  if (!choice.metresPerUnit && isObjMesh(scene.file)) choice.metresPerUnit = loaded.groom.metresPerUnit;
-  return readMeshMotion(choice, file.groom.up == "Z");
+// Of the body of which it is the mesh, both have the same points.
+Result<MovingMesh> meshOfScalp(const SceneFile& file, LoadedScene& loaded) {
+  if (file.scalp.body.empty()) return readMovingMesh(sourceOf(file.scalp), file, loaded);
+  for (const MovingBody& moving : loaded.moving)
+    if (file.bodies[moving.body].name == file.scalp.body) return MovingMesh{moving.mesh, moving.offset};
+  return Error{fmt::format("no body named {} deforms", ringlet::quoted(file.scalp.body))};
+}
+
+// When the mesh's first key is [s].
+double startOfScalp(const SceneFile& file) {
+  for (const SceneBody& body : file.bodies)
+    if (!file.scalp.body.empty() && body.name == file.scalp.body) return body.start;
+  return file.scalp.start;
 }
 
 }  // namespace
 
 Status loadScalp(const SceneFile& file, LoadedScene& loaded) {
-  const SceneScalp& scene = file.scalp;
-  const std::string name = scene.generate.empty() ? scene.file.string() : scene.generate;
-  std::error_code code;  // files that are not there are no error of this
-  const bool isHeads =
-      !file.motion.file.empty() && std::filesystem::equivalent(file.motion.file, scene.file, code);
-  const auto read = meshOfScalp(file, isHeads, loaded);
+  const std::string name = file.scalp.body.empty() ? sourceOf(file.scalp).name() : file.scalp.body;
+  const auto read = meshOfScalp(file, loaded);
   if (!read) return Error{fmt::format("the scalp: {}", read.error().message), read.error().fault};
-  const std::shared_ptr<const MeshMotion>& mesh = *read;
-  for (const std::string& warning : mesh->warnings())
-    loaded.warnings.push_back(fmt::format("{}: {}", name, warning));
 
   const Groom& groom = loaded.groom;
   const std::vector<Vec3d> roots = rootPlaces(groom);
   const HeadScalpChoice binding{
-      .start = scene.start, .farthest = scene.farthest, .offset = isHeads ? loaded.motion.start : Vec3d{}};
-  const auto ends = doubtOfRootEnds(*mesh, groom, loaded.motion, binding, "the scalp " + name);
-  auto scalp = HeadScalp::bind(mesh, roots, loaded.motion, binding);
+      .start = startOfScalp(file), .farthest = file.scalp.farthest, .offset = read->offset};
+  const auto ends = doubtOfRootEnds(*read->mesh, groom, loaded.motion, binding, "the scalp " + name);
+  auto scalp = HeadScalp::bind(read->mesh, roots, loaded.motion, binding);
   if (!scalp) {
     return Error{fmt::format("the scalp {}: {}{}", name, scalp.error().message,
                              ends ? fmt::format("; {}", *ends) : std::string())};

@@ -222,7 +222,7 @@ SceneFile sceneFileOf(const BuiltinScene& scene, const std::filesystem::path& gr
     file.bodies.push_back(std::move(head));
   }
 
-  if (scene.scalp) file.scalp.generate = "bust";
+  if (scene.scalp) file.scalp.body = "bust";
 
   const Settings& settings = scene.settings;
   SceneSimulation& simulation = file.simulation;
