@@ -34,7 +34,9 @@ void main() {
   float w = clamp(dot(cross(b - a, x - a), face) / size, 0.0, 1.0 - v);
   x = a + v * (b - a) + w * (c - a);
   vec4 normal = (1.0 - v - w) * solidNormal(corners.x) + v * solidNormal(corners.y) + w * solidNormal(corners.z);
-  vec3 reflected = first.w > 0.5 ? picture.groundColour.rgb : picture.solidColour.rgb;
-  vec3 colour = min(shadedSolid(x, normalize(normal.xyz), reflected), vec3(60000));
+  uint kind = uint(first.w + 0.5);
+  bool isFromBehind = kind == kSolidCloth && dot(normal.xyz, way) > 0.0;
+  vec3 towards = normalize(isFromBehind ? -normal.xyz : normal.xyz);
+  vec3 colour = min(shadedSolid(x, towards, picture.solidColours[kind].rgb), vec3(60000));
   solidColours[pixel] = uvec2(packHalf2x16(colour.xy), packHalf2x16(vec2(colour.z, 1.0 - normal.w)));
 }

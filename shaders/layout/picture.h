@@ -44,6 +44,7 @@ RINGLET_CONSTANT uint kShadedHair = 0x80000000u;  // bit of a sample's second wo
 RINGLET_CONSTANT uint kSolidRows = 64;  // rows of samples for each invocation of render_solids
 
 RINGLET_CONSTANT uint kMostPigments = 8;
+RINGLET_CONSTANT uint kSolidBody = 0, kSolidGround = 1, kSolidCloth = 2, kSolidKinds = 3;
 
 // A picture and its camera.
 struct Picture {
@@ -58,8 +59,7 @@ struct Picture {
   vec4 densityBox;         // lower corner [m], cell [m]
   vec4 pigments[kMostPigments];  // absorption over a fibre's radius, 0; hairs interpolate between two
                                  // neighbours
-  vec4 solidColour;        // reflectance, 0
-  vec4 groundColour;       // reflectance, 0
+  vec4 solidColours[kSolidKinds];  // reflectance of each kind, 0
   vec4 backColours[2];     // radiance of the background: in the middle, at the edge; 0
   uint width;
   uint height;
@@ -95,7 +95,7 @@ struct DrawnHair {
 };
 
 struct SolidPoint {
-  vec4 position;  // [m]; w: of a patch, its area [m^2]; of a point, 1 on the ground and 0 on bodies
+  vec4 position;  // [m]; w: of a patch, its area [m^2]; of a point, its kind: kSolid...
   vec4 normal;    // w: of a point, the share of the background that shines through
 };
 

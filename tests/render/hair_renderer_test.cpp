@@ -423,6 +423,31 @@ TEST_F(HairRendererTest, AGroundTakesShadowsAndFades) {
   EXPECT_EQ(ofRow(0), 0) << "beyond it";
 }
 
+// A square before the camera, its front or its back: of cloth both are lit, and in its own colour.
+TEST_F(HairRendererTest, TheBackOfClothIsLitAsItsFront) {
+  const auto lightOf = [&](bool isCloth, bool isBack, Vec3d cloth = {0.4, 0.4, 0.4}) {
+    Scene scene;
+    scene.addStrand({{5, 5, 5}, {5, 5.1f, 5}});  // out of sight
+    TriangleMesh square{{{-0.1, -0.1, 0}, {0.1, -0.1, 0}, {0.1, 0.1, 0}, {-0.1, 0.1, 0}},
+                        {{0, 1, 2}, {0, 2, 3}}};
+    for (auto& t : square.triangles)
+      if (isBack) std::swap(t[1], t[2]);
+    scene.solids = {solidMeshOf(square)};
+    scene.solids[0].isCloth = isCloth;
+    scene.places = {{{}, {}}};
+    Look look;
+    look.solid = {0.4, 0.4, 0.4}, look.cloth = cloth;
+    look.rim = look.skyAbove = look.skyBelow = look.backMiddle = look.backEdge = {};
+    return meanLight(draw(gpu(), scene, {kWidth, kHeight, 2}, look).light);
+  };
+  const double front = lightOf(true, false);
+  EXPECT_GT(front, 0.01);
+  EXPECT_NEAR(lightOf(true, true), front, 0.02 * front);
+  EXPECT_NEAR(lightOf(false, false), front, 0.02 * front);
+  EXPECT_LT(lightOf(false, true), 0.1 * front);
+  EXPECT_NEAR(lightOf(true, true, {0.1, 0.1, 0.1}), front / 4, 0.05 * front);
+}
+
 // Of two strands the one that is longer than at rest has the last colour, and hairs that follow take theirs.
 TEST_F(HairRendererTest, StretchIsTheColourOfTheLongestEdge) {
   Scene scene;

@@ -39,6 +39,7 @@ PictureSolids PictureSolids::ofScene(const LoadedScene& scene, double hairSize) 
                                   : surfaceOf(body);
     if (mesh.triangles.empty()) continue;
     solids.meshes_.push_back(solidMeshOf(mesh));
+    solids.meshes_.back().isCloth = body.isCloth();
     solids.bodies_.push_back(i);
   }
   return solids;

@@ -21,6 +21,10 @@ constexpr std::uint32_t kShadowHairs = 10000;      // that throw shadows, for al
 constexpr double kNear = 0.01, kNearShare = 0.02;  // [m], and of the way to what is looked at, where less
 constexpr double kMostHairs = 16384;               // before a place on average: sums stay within 32 bits
 
+std::uint32_t kindOf(const SolidMesh& solid) {
+  return solid.isGround() ? layout::kSolidGround : solid.isCloth ? layout::kSolidCloth : layout::kSolidBody;
+}
+
 Status checkSize(const PictureSize& size) {
   RINGLET_ASSERT(size.shadowCells >= 8 && size.shadowCells <= 256 && size.shadowSlices >= 8 &&
                      size.shadowSlices <= 256 && size.densityCells >= 8 && size.densityCells <= 128,
@@ -66,8 +70,9 @@ void writeLook(layout::Picture& picture, const Look& look) {
                  "a look has two to eight pigments");
   for (std::size_t i = 0; i < look.pigments.size(); ++i) picture.pigments[i] = packed(look.pigments[i]);
   picture.pigmentCount = static_cast<std::uint32_t>(look.pigments.size());
-  picture.solidColour = packed(look.solid);
-  picture.groundColour = packed(look.ground);
+  picture.solidColours[layout::kSolidBody] = packed(look.solid);
+  picture.solidColours[layout::kSolidGround] = packed(look.ground);
+  picture.solidColours[layout::kSolidCloth] = packed(look.cloth);
   picture.backColours[0] = packed(look.backMiddle);
   picture.backColours[1] = packed(look.backEdge);
   const double b = look.roughnessAlong,
@@ -199,9 +204,9 @@ Status HairRenderer::makeKernels(gpu::Device& device, const gpu::Buffer& points)
                                       layout::kBindSolidPoints, layout::kBindSolidTriangles})
     texels = texels && isSeenAsTexels(device, table.at(binding).get().bytes());
   for (std::size_t k = 0; k < kRenderKernelCount; ++k) {
-    auto kernel =
-        gpu::Kernel::create(device, describeRenderKernel(static_cast<RenderKernel>(k), device.pointGroupSize(),
-                                                         hasAtomic64_, texels, size_.isPreview));
+    auto kernel = gpu::Kernel::create(
+        device, describeRenderKernel(static_cast<RenderKernel>(k), device.pointGroupSize(), hasAtomic64_,
+                                     texels, size_.isPreview));
     if (!kernel) return kernel.error();
     auto bindings = gpu::Bindings::create(**kernel, table);
     if (!bindings) return bindings.error();
@@ -240,9 +245,8 @@ Status HairRenderer::setFrame(const Camera& camera, const Bounds& hair, std::spa
 
   // Points to be seen, then patches that throw shadows.
   std::vector<layout::SolidPoint> points;
-  const auto add = [&](const SolidPlace& place, Vec3d point, Vec3d normal, double areaOrGround,
-                       double clear) {
-    points.push_back({.position = packed(place.position + rotate(place.rotation, point), areaOrGround),
+  const auto add = [&](const SolidPlace& place, Vec3d point, Vec3d normal, double areaOrKind, double clear) {
+    points.push_back({.position = packed(place.position + rotate(place.rotation, point), areaOrKind),
                       .normal = packed(rotate(place.rotation, normal), clear)});
   };
   const auto now = [&](std::size_t s) -> const SolidMesh& {
@@ -250,7 +254,7 @@ Status HairRenderer::setFrame(const Camera& camera, const Bounds& hair, std::spa
   };
   for (std::size_t s = 0; s < solids_.size(); ++s)
     for (std::size_t i = 0; i < solids_[s].points.size(); ++i)
-      add(places[s], now(s).points[i], now(s).normals[i], solids_[s].isGround() ? 1 : 0,
+      add(places[s], now(s).points[i], now(s).normals[i], kindOf(solids_[s]),
           solids_[s].isGround() ? solids_[s].clearness[i] : 0);
   for (std::size_t s = 0; s < solids_.size(); ++s)
     for (const SolidMesh::Patch& patch : now(s).patches)

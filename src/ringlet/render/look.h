@@ -30,7 +30,8 @@ struct Look {
   Vec3d rim{0.8, 0.88, 1.0};   // and from its upper right, behind
   Vec3d skyAbove{0.65, 0.72, 0.85}, skyBelow{0.30, 0.26, 0.24};         // [radiance]
   Vec3d solid{0.34, 0.27, 0.235};                                       // share that bodies reflect
-  Vec3d ground{0.10, 0.10, 0.105};                                      // and a ground
+  Vec3d ground{0.10, 0.10, 0.105};                                      // a ground
+  Vec3d cloth{0.045, 0.06, 0.095};                                      // and cloth
   Vec3d backMiddle{0.115, 0.12, 0.132}, backEdge{0.018, 0.020, 0.024};  // behind all [radiance]
   double exposure = 1.15;
 };

@@ -27,6 +27,7 @@ struct SolidMesh {
   // Of a ground only: at points, the share of what is behind it that is seen, in [0, 1].
   std::vector<double> clearness;
   bool isGround() const { return !clearness.empty(); }
+  bool isCloth = false;  // its back is shaded as its front
 };
 
 /// Points that triangles share shade smoothly. Patches are at most about `longest` [m] apart, but there are
