@@ -192,12 +192,19 @@ template <class Real>
 ClothList<Real> clothList(const Cloth<Real>& cloth, std::span<const ClothTriangle> triangles,
                           const ClothWay<Real>& way, std::size_t most) {
   ClothList<Real> list{.from = way.y0, .share = way.share};
-  Real nearest = Real(kClothSearch);
+  const Vector3<Real> whole = way.y1 - way.y0;
+  Real longest = 0;
+  for (std::size_t i = 0; i < cloth.points.size(); ++i)
+    longest = std::max(longest, (cloth.next[i] - cloth.points[i]).norm());
+  // Cloth further away is not met on that way, nor within kClothReach of it.
+  Real nearest =
+      std::min(Real(kClothReach) + 2 * whole.norm() + 3 * way.shares * longest + 4 * Real(kListRound),
+               Real(kClothSearch));
   for (const ClothTriangle& triangle : triangles) {
     const cloth::Seen<Real> seen = cloth::seen(cloth, triangle, way.share, way.y0);
     if (seen.distance < nearest) nearest = seen.distance, list.way = seen.way;
   }
-  list.along = way.y1 - way.y0 - way.shares * list.way;
+  list.along = whole - way.shares * list.way;
   const auto cornersAt = [&](const ClothTriangle& triangle) {
     std::array<Vector3<Real>, 3> corners;
     for (std::size_t k = 0; k < 3; ++k)
@@ -217,9 +224,6 @@ ClothList<Real> clothList(const Cloth<Real>& cloth, std::span<const ClothTriangl
   }
   list.along -= beyond;
   // From all that is not nearer than the nearest place; where that is enough, no list is needed.
-  Real longest = 0;
-  for (std::size_t i = 0; i < cloth.points.size(); ++i)
-    longest = std::max(longest, (cloth.next[i] - cloth.points[i]).norm());
   const Real slack = Real(kListSlack) * list.along.norm() + Real(kListRound);
   list.distance = std::min(nearest, Real(kClothReach));
   list.reach = nearest - list.along.norm() - slack - way.shares * (longest + list.way.norm());

@@ -51,26 +51,27 @@ uvec2 trianglesOf(BodyRest body, uint leaf) {
 }
 
 /// A distance beyond which the walk through the tree need not look: a little more than that of a leaf that is near.
-float nearestAtMost(BodyRest body, uint copy, float share, bool moves, vec3 y) {
+float nearestAtMost(BodyRest body, uint copy, float share, bool moves, vec3 y, float search) {
   uint tree = treeOf(body, copy);
   uint leaves = 1u << body.triangleBits;
-  uint node = 1;
+  bool isNear = apartFrom(boxOf(body, tree, 1), y, y) < search;
+  uint node = isNear ? 1 : leaves;
   if (node < leaves) do {
     bool isSecond = apartFrom(boxOf(body, tree, 2 * node + 1), y, y) < apartFrom(boxOf(body, tree, 2 * node), y, y);
     node = 2 * node + (isSecond ? 1 : 0);
   } while (node < leaves);
-  float most = kClothSearch;
-  uvec2 triangles = trianglesOf(body, node);
+  float most = search;
+  uvec2 triangles = trianglesOf(body, isNear ? node : 0);
   for (uint triangle = triangles.x; triangle < triangles.y; ++triangle)
     most = min(most, clothSeen(body, copy, share, moves, triangle, y).distance);
-  return min(1.001 * most + kListRound, kClothSearch);
+  return min(1.001 * most + kListRound, search);
 }
 
-/// The nearest place of the cloth, within kClothSearch: xyz: how it moves to the next copy; w: its distance [m].
-vec4 nearestTo(BodyRest body, uint copy, float share, vec3 y) {
+/// The nearest place of the cloth, within `search`: xyz: how it moves to the next copy; w: its distance [m].
+vec4 nearestTo(BodyRest body, uint copy, float share, vec3 y, float search) {
   uint tree = treeOf(body, copy);
   bool moves = longestWay(body, copy) > 0.0;
-  float nearest = nearestAtMost(body, copy, share, moves, y);
+  float nearest = nearestAtMost(body, copy, share, moves, y, search);
   vec3 way = vec3(0);
   uint node = 1;
   do {
@@ -164,13 +165,17 @@ void listOf(uint cloth, BodyStep body, uint i) {
   float shares = bendingShare(body);
   vec3 p = positionAtStart(i);
   vec3 from = placeAtStart(body, p);
-  vec4 nearest = nearestTo(body.rest, copy, share, from);
+  vec3 whole = placeAtEnd(body, p + stepSeconds() * velocityAtStart(i)) - from;
+  // Cloth further away is not met on that way, nor within kClothReach of it.
+  float ofCloth = shares * longestWay(body.rest, copy);
+  float within = min(kClothReach + 2.0 * length(whole) + 3.0 * ofCloth + 4.0 * kListRound, kClothSearch);
+  vec4 nearest = nearestTo(body.rest, copy, share, from, within);
   vec3 way = nearest.xyz;
-  vec3 along = placeAtEnd(body, p + stepSeconds() * velocityAtStart(i)) - from - shares * way;
+  vec3 along = whole - shares * way;
   along -= partBeyond(body.rest, copy, share, from, along);
   // From all that is not nearer than the nearest place; where that is enough, no list is needed.
   float far = nearest.w - (1.0 + kListSlack) * length(along) - kListRound -
-              shares * (longestWay(body.rest, copy) + length(way));
+              ofCloth - shares * length(way);
   float reach = far;
   count = 0;
   if (far < kClothReach) {
