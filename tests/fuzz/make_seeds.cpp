@@ -33,6 +33,7 @@
 #include "tests/groom/zip_bytes.h"
 #include "tests/motion/gltf_samples.h"
 #include "tests/motion/mesh_motion_samples.h"
+#include "tests/motion/usd_skin_samples.h"
 
 namespace ringlet::fuzz {
 namespace {
@@ -141,6 +142,8 @@ void writeMotions(const fs::path& folder) {
         test::usdaText({{0, 1, 2}}, samples, 24,
                        "  double3 xformOp:translate.timeSamples = { 1: (0, 0, 0), 4: (0, 3, 0) }\n"
                        "  uniform token[] xformOpOrder = [\"xformOp:translate\"]\n"));
+  write(seed(folder, "usd_mesh", "arm.usda"), test::arm::scene().text());
+  write(seed(folder, "usd_mesh", "arm.usdc"), test::arm::scene().crate());
   const test::GltfBuilder strip = test::bendingStrip(1, 5121, 5126);
   write(seed(folder, "gltf_file", "strip.gltf"), strip.text());
   write(seed(folder, "gltf_file", "strip.glb"), strip.glb());
@@ -287,6 +290,9 @@ void writeDictionaries(const fs::path& folder) {
                                      "None",
                                      "PXR-USDC",
                                      "primChildren",
+                                     "rel skel:skeleton = </A>",
+                                     "skel:animationSource",
+                                     "primvars:skel:jointIndices",
                                      "nan",
                                      "1e38"};
   for (const char* fuzzer : {"usda_file", "usdc_file", "usdz_file", "usd_mesh"})

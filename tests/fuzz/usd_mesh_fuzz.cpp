@@ -8,8 +8,9 @@ namespace ringlet::fuzz {
 const MemoryBound kMemory{.base = 16 << 20, .perByte = 1024};
 
 void tryBytes(std::span<const std::byte> bytes) {
-  const auto mesh = readUsdMesh(bytes, "fuzz.usd", {.upIsZ = true});
-  if (!mesh) return;
+  const auto read = readUsdMesh(bytes, "fuzz.usd", {.upIsZ = true});
+  if (!read) return;
+  const auto& mesh = *read;
   demand(!mesh->triangles().empty() && mesh->firstSeconds() <= mesh->lastSeconds(),
          "a mesh has faces and times");
   for (const auto& triangle : mesh->triangles())

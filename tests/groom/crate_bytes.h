@@ -19,7 +19,7 @@ namespace ringlet::test {
 
 class CrateBytes {
  public:
-  static constexpr std::uint32_t kPrim = 6, kRoot = 7, kAttribute = 1;
+  static constexpr std::uint32_t kPrim = 6, kRoot = 7, kAttribute = 1, kRelationship = 8;
   using Rep = std::uint64_t;
   /// Of its tables: the last index into the other is one past its end.
   enum class Index { tokenOfField, fieldOfSet, setOfSpec, pathOfSpec };
@@ -96,6 +96,17 @@ class CrateBytes {
     append(values_, std::uint64_t{count});
     for (std::size_t i = 0; i < count; ++i) append(values_, std::uint32_t{0});
     return Rep{type} << 48 | at;
+  }
+  /// An explicit list of paths that are there already.
+  Rep pathList(const std::vector<std::string>& paths) {
+    const Rep at = place();
+    values_ += '\3';
+    append(values_, std::uint64_t{paths.size()});
+    for (const std::string& path : paths) {
+      const auto found = std::ranges::find(specs_, path, &Spec::path);
+      append(values_, static_cast<std::uint32_t>(found - specs_.begin()));
+    }
+    return Rep{34} << 48 | at;
   }
   Rep samples(const std::vector<double>& times, const std::vector<Rep>& values) {
     const Rep list = place();

@@ -192,11 +192,8 @@ Result<MeshPointer> readMeshMotion(const MeshMotionChoice& choice, bool upIsZ) {
   if (!choice.cache.empty())
     return Error{fmt::format("{}: found a point cache, {}, beside it; only an OBJ file has one", name,
                              choice.cache.string())};
-  if (isUsdFile(choice.path)) {
-    auto mesh = readUsdMesh(choice.path, {choice.mesh, choice.metresPerUnit, choice.up, upIsZ});
-    if (!mesh) return mesh.error();
-    return MeshPointer(std::make_shared<const SampledMesh>(std::move(*mesh)));
-  }
+  if (isUsdFile(choice.path))
+    return readUsdMesh(choice.path, {choice.mesh, choice.metresPerUnit, choice.up, upIsZ});
   auto mesh = readSkinnedMesh(choice.path, {.node = choice.mesh,
                                             .animation = choice.animation,
                                             .placement = {.metresPerUnit = choice.metresPerUnit.value_or(1),

@@ -1,5 +1,5 @@
-// Meshes that move, from files: skins of glTF, point samples of USD, point caches over an OBJ file, sequences
-// of OBJ files.
+// Meshes that move, from files: skins of glTF and USD, point samples of USD, point caches over an OBJ file,
+// sequences of OBJ files.
 #pragma once
 
 #include <filesystem>

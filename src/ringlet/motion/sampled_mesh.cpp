@@ -27,11 +27,8 @@ Status checkSamples(const std::vector<MeshMotion::Triangle>& triangles, const Po
   if (samples.points.size() != count * samples.pointCount)
     return Error{fmt::format("found {} points in {} samples; expected {} in each", samples.points.size(),
                              count, samples.pointCount)};
-  if (placed.placements.empty() || placed.placements.size() != placed.seconds.size())
-    return Error{fmt::format("found {} placements at {} times; expected one at each",
-                             placed.placements.size(), placed.seconds.size())};
-  for (const auto* seconds : {&samples.seconds, &placed.seconds})
-    if (Status checked = checkTimes(*seconds); !checked) return checked;
+  if (Status checked = checkTimes(samples.seconds); !checked) return checked;
+  if (Status checked = checkPlacements(placed); !checked) return checked;
   for (const MeshMotion::Triangle& triangle : triangles) {
     const std::uint32_t last = *std::ranges::max_element(triangle);
     if (last >= samples.pointCount)
@@ -44,7 +41,6 @@ Status checkSamples(const std::vector<MeshMotion::Triangle>& triangles, const Po
       return Error{fmt::format("point {} of sample {} is not finite", i % samples.pointCount,
                                i / samples.pointCount + 1)};
   }
-  if (!std::ranges::all_of(placed.placements, &Affine::isFinite)) return Error{"a placement is not finite"};
   return {};
 }
 
@@ -63,6 +59,17 @@ Between between(const std::vector<double>& seconds, double t) {
 
 Vec3d mixed(Vec3d a, Vec3d b, double share) { return a + (b - a) * share; }
 
+}  // namespace
+
+Status checkPlacements(const PlacementSamples& placed) {
+  if (placed.placements.empty() || placed.placements.size() != placed.seconds.size())
+    return Error{fmt::format("found {} placements at {} times; expected one at each",
+                             placed.placements.size(), placed.seconds.size())};
+  if (Status checked = checkTimes(placed.seconds); !checked) return checked;
+  if (!std::ranges::all_of(placed.placements, &Affine::isFinite)) return Error{"a placement is not finite"};
+  return {};
+}
+
 Affine placementAt(const PlacementSamples& placed, double t) {
   const auto [k, share] = between(placed.seconds, t);
   const Affine& a = placed.placements[k];
@@ -71,8 +78,6 @@ Affine placementAt(const PlacementSamples& placed, double t) {
   return {mixed(a.x, b.x, share), mixed(a.y, b.y, share), mixed(a.z, b.z, share),
           mixed(a.position, b.position, share)};
 }
-
-}  // namespace
 
 Result<SampledMesh> SampledMesh::of(std::vector<Triangle> triangles, PointSamples samples,
                                     PlacementSamples placed, std::vector<std::string> warnings) {

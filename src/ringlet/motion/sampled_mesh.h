@@ -21,6 +21,11 @@ struct PlacementSamples {
   std::vector<Affine> placements{Affine{}};
 };
 
+/// An Error where there are none, or not one at each time; where times do not rise or numbers are not finite.
+Status checkPlacements(const PlacementSamples& placed);
+/// Between two samples the columns go straight.
+Affine placementAt(const PlacementSamples& placed, double t);
+
 class SampledMesh final : public MeshMotion {
  public:
   /// A mesh that nothing but its points moves has one placement, from the file's unit and axes. Errors: no

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdint>
 #include <new>
-#include <set>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -17,64 +16,57 @@
 #include "ringlet/base/quoted.h"
 #include "ringlet/base/whole_file.h"
 #include "ringlet/groom/usd/usd_file.h"
-#include "ringlet/groom/usd/usd_transform.h"
+#include "ringlet/motion/sampled_mesh.h"
+#include "ringlet/motion/usd_prims.h"
+#include "ringlet/motion/usd_skinned_mesh.h"
+#include "ringlet/motion/usd_transform_stack.h"
 
 namespace ringlet {
 namespace {
 
-constexpr const char* kFlatten = "flatten the file first, as `usdcat --flatten` does";
-constexpr double kUsdUnit = 0.01;      // of a file that says none [m]
-constexpr double kUsdTimeCodes = 24;   // likewise, in a second
-constexpr std::size_t kMostNamed = 6;  // in a sentence
+using UsdMeshPointer = std::shared_ptr<const MeshMotion>;
 
-// What an op's samples say at a time: straight between numbers, of quaternions the shorter way.
-UsdValue valueAt(const std::vector<UsdSample>& samples, double time) {
-  const auto after = std::ranges::upper_bound(samples, time, {}, &UsdSample::time);
-  if (after == samples.begin()) return samples.front().value;
-  const UsdSample& a = *(after - 1);
-  if (after == samples.end() || a.value.numbers.size() != after->value.numbers.size()) return a.value;
-  UsdValue value = a.value;
-  const double share = (time - a.time) / (after->time - a.time);
-  double alike = 0;
-  for (std::size_t k = 0; k < value.numbers.size(); ++k) alike += value.numbers[k] * after->value.numbers[k];
-  const double sign = value.numbers.size() == 4 && alike < 0 ? -1 : 1;
-  for (std::size_t k = 0; k < value.numbers.size(); ++k)
-    value.numbers[k] += (sign * after->value.numbers[k] - value.numbers[k]) * share;
-  return value;
-}
+constexpr double kUsdUnit = 0.01;      // of a file that says none [m]
+constexpr std::size_t kMostNamed = 6;  // in a sentence
 
 class UsdMeshMaker {
  public:
   UsdMeshMaker(const UsdLayer& layer, const std::string& name, const UsdMeshChoice& choice)
-      : layer_(layer), name_(name), choice_(choice) {}
+      : layer_(layer), name_(name), choice_(choice), prims_(layer, name) {}
 
-  Result<SampledMesh> make() {
+  Result<UsdMeshPointer> make() {
     if (Status found = findMesh(); !found) return found.error();
-    if (Status placed = findTransforms(); !placed) return placed.error();
+    if (Status whole = prims_.checkComposition(prim_); !whole) return whole.error();
     if (Status read = readFaces(); !read) return read.error();
     if (Status read = readPoints(); !read) return read.error();
-    auto mesh =
-        SampledMesh::of(std::move(triangles_), std::move(samples_), std::move(placed_), std::move(warnings_));
-    if (!mesh) return wrong(prim_, mesh.error().message);
-    return mesh;
+    auto deformers = readUsdDeformers(prims_, prim_, samples_.pointCount, warnings_);
+    if (!deformers) return deformers.error();
+    if (Status placed = place(*deformers); !placed) return placed.error();
+    return deformers->isEmpty() ? sampled() : skinned(std::move(*deformers));
   }
 
  private:
   const UsdPrim& mesh() const { return layer_.prims[prim_]; }
-  Error wrong(std::uint32_t prim, const std::string& sentence) const {
-    return Error{fmt::format("{}: {}: {}", name_, usdPathOf(layer_, prim), sentence)};
-  }
+  Error wrong(std::uint32_t prim, const std::string& sentence) const { return prims_.wrong(prim, sentence); }
 
-  bool isThere(std::uint32_t prim) const {
-    for (; prim != kNoUsdPrim; prim = layer_.prims[prim].parent)
-      if (!layer_.prims[prim].isActive || layer_.prims[prim].specifier != UsdSpecifier::def) return false;
-    return true;
+  Result<UsdMeshPointer> sampled() {
+    auto mesh =
+        SampledMesh::of(std::move(triangles_), std::move(samples_), std::move(placed_), std::move(warnings_));
+    if (!mesh) return wrong(prim_, mesh.error().message);
+    return UsdMeshPointer(std::make_shared<const SampledMesh>(std::move(*mesh)));
+  }
+  Result<UsdMeshPointer> skinned(UsdDeformers deformers) {
+    auto shape = SampledMesh::of(std::move(triangles_), std::move(samples_), {}, std::move(warnings_));
+    if (!shape) return wrong(prim_, shape.error().message);
+    auto mesh = UsdSkinnedMesh::of(std::move(*shape), std::move(deformers), std::move(placed_));
+    if (!mesh) return wrong(prim_, mesh.error().message);
+    return UsdMeshPointer(std::make_shared<const UsdSkinnedMesh>(std::move(*mesh)));
   }
 
   Status findMesh() {
     std::vector<std::uint32_t> meshes;
     for (std::uint32_t p = 0; p < layer_.prims.size(); ++p)
-      if (layer_.prims[p].type == "Mesh" && isThere(p)) meshes.push_back(p);
+      if (layer_.prims[p].type == "Mesh" && prims_.isThere(p)) meshes.push_back(p);
     std::vector<std::string> paths;
     for (const std::uint32_t p : meshes) paths.push_back(usdPathOf(layer_, p));
     const std::string& wanted = choice_.prim;
@@ -85,9 +77,9 @@ class UsdMeshMaker {
         !layer_.composedBy.empty() ||
         std::ranges::any_of(layer_.prims, [](const UsdPrim& prim) { return !prim.composedBy.empty(); });
     if (meshes.empty())
-      return Error{
-          fmt::format("{}: found no Mesh prim{}", name_,
-                      isComposed ? fmt::format(" but other files that are not followed; {}", kFlatten) : "")};
+      return Error{fmt::format(
+          "{}: found no Mesh prim{}", name_,
+          isComposed ? fmt::format(" but other files that are not followed; {}", kFlattenUsd) : "")};
     std::erase_if(meshes, [&](std::uint32_t p) {
       return !wanted.empty() && layer_.prims[p].name != wanted && usdPathOf(layer_, p) != wanted;
     });
@@ -101,49 +93,10 @@ class UsdMeshMaker {
     return {};
   }
 
-  // The prims whose transforms place the mesh, itself first.
-  Status findTransforms() {
-    for (std::uint32_t p = prim_; p != kNoUsdPrim; p = layer_.prims[p].parent) {
-      const UsdPrim& prim = layer_.prims[p];
-      if (!prim.composedBy.empty())
-        return wrong(p, fmt::format("has {}, which are not followed; {}", prim.composedBy, kFlatten));
-      if (!prim.deformedBy.empty())
-        return wrong(
-            p, fmt::format("{} deforms it by a skeleton or blend shapes, which are not followed; export "
-                           "its points over time (a point cache) instead",
-                           prim.deformedBy));
-      UsdPrim ops{.name = prim.name, .type = prim.type, .composedBy = {}, .attributes = {}};
-      for (const UsdAttribute& attribute : prim.attributes)
-        if (attribute.name.starts_with("xformOp")) ops.attributes.push_back(attribute);
-      const auto placement = usdPlacementOf(ops);
-      if (!placement) return wrong(p, placement.error().message);
-      transforms_.push_back(std::move(ops));
-      if (placement->isOfWorld) break;
-    }
-    return {};
-  }
-
-  Result<UsdTransform> transformAt(double time) const {
-    UsdTransform all;
-    for (UsdPrim ops : transforms_) {
-      for (UsdAttribute& op : ops.attributes)
-        if (!op.samples.empty()) op.value = valueAt(op.samples, time);
-      const auto placement = usdPlacementOf(ops);
-      if (!placement) return wrong(prim_, fmt::format("at time {}: {}", time, placement.error().message));
-      all = all.then(placement->transform);
-    }
-    return all;
-  }
-
   Result<const UsdValue*> constantOf(std::string_view name) const {
     const UsdAttribute* attribute = usdAttributeOf(mesh(), name);
     if (!attribute || attribute->value.numbers.empty()) return wrong(prim_, fmt::format("has no {}", name));
-    for (const UsdSample& sample : attribute->samples) {
-      if (sample.value.numbers != attribute->value.numbers)
-        return wrong(prim_, fmt::format("{} changes at time {}; the faces of a mesh that moves stay the same",
-                                        name, sample.time));
-    }
-    return &attribute->value;
+    return prims_.constantOf({prim_, attribute}, "the faces of a mesh that moves stay the same");
   }
 
   Status readFaces() {
@@ -198,36 +151,30 @@ class UsdMeshMaker {
                                  "moves stay the same",
                                  numbers.size() / 3, sample.time, samples_.pointCount));
     }
-    const double rate = layer_.timeCodesPerSecond.value_or(kUsdTimeCodes);
-    if (!(rate > 0 && rate <= 1e6))
-      return Error{fmt::format("{}: found {} time codes per second; expected more than 0", name_, rate)};
+    const auto rate = prims_.timeCodesPerSecond();
+    if (!rate) return rate.error();
     for (const UsdSample& sample : samples) {
       const std::vector<double>& xyz = sample.value.numbers;
-      samples_.seconds.push_back(sample.time / rate);
+      samples_.seconds.push_back(sample.time / *rate);
       for (std::size_t at = 0; at < xyz.size(); at += 3)
         samples_.points.push_back(static_cast<Vec3f>(Vec3d{xyz[at], xyz[at + 1], xyz[at + 2]}));
     }
-    return readPlacements(rate);
+    return {};
   }
 
-  Status readPlacements(double rate) {
-    std::set<double> times;
-    for (const UsdPrim& ops : transforms_)
-      for (const UsdAttribute& op : ops.attributes)
-        for (const UsdSample& sample : op.samples) times.insert(sample.time);
-    if (times.size() < 2 && samples_.seconds.size() < 2)
+  // By the prim that places what the deformers leave.
+  Status place(const UsdDeformers& deformers) {
+    const auto stack = UsdTransformStack::of(prims_, deformers.placedBy);
+    if (!stack) return stack.error();
+    auto placed = stack->placements(world());
+    if (!placed) return placed.error();
+    placed_ = std::move(*placed);
+    if (placed_.seconds.size() < 2 && samples_.seconds.size() < 2 && !deformers.move())
       warnings_.push_back(fmt::format("{}: does not move", usdPathOf(layer_, prim_)));
-    if (times.empty()) times.insert(0);
-    placed_ = {{}, {}};
-    for (const double time : times) {
-      const auto transform = transformAt(time);
-      if (!transform) return transform.error();
-      placed_.seconds.push_back(time / rate);
-      const auto& [x, y, z] = transform->rows;
-      placed_.placements.push_back(world() * Affine{x, y, z, transform->move});
-      if (time == *times.begin() && transform->determinant() < 0)
-        for (MeshMotion::Triangle& triangle : triangles_) std::swap(triangle[1], triangle[2]);
-    }
+    const Affine& first = placed_.placements.front();
+    const bool mirrorsSkin = deformers.skin && deformers.skin->isMirroring();
+    if ((dot(first.x, cross(first.y, first.z)) < 0) != mirrorsSkin)
+      for (MeshMotion::Triangle& triangle : triangles_) std::swap(triangle[1], triangle[2]);
     return {};
   }
 
@@ -242,8 +189,8 @@ class UsdMeshMaker {
   const UsdLayer& layer_;
   const std::string& name_;
   const UsdMeshChoice& choice_;
+  UsdPrims prims_;
   std::uint32_t prim_ = kNoUsdPrim;
-  std::vector<UsdPrim> transforms_;  // with nothing but their ops
   std::vector<MeshMotion::Triangle> triangles_;
   PointSamples samples_;
   PlacementSamples placed_;
@@ -257,14 +204,14 @@ bool isUsdFile(const std::filesystem::path& path) {
   return ending == ".usda" || ending == ".usdc" || ending == ".usd" || ending == ".usdz";
 }
 
-Result<SampledMesh> readUsdMesh(std::span<const std::byte> bytes, const std::string& name,
-                                const UsdMeshChoice& choice) {
+Result<UsdMeshPointer> readUsdMesh(std::span<const std::byte> bytes, const std::string& name,
+                                   const UsdMeshChoice& choice) {
   const auto layer = readUsdLayer(bytes, name, UsdContent::meshes);
   if (!layer) return layer.error();
   return UsdMeshMaker(*layer, name, choice).make();
 }
 
-Result<SampledMesh> readUsdMesh(const std::filesystem::path& path, const UsdMeshChoice& choice) {
+Result<UsdMeshPointer> readUsdMesh(const std::filesystem::path& path, const UsdMeshChoice& choice) {
   try {
     const auto bytes = readWholeFile(path);
     if (!bytes) return bytes.error();

@@ -1,16 +1,17 @@
-// Meshes of USD files that move: point samples of a Mesh prim, and sampled transforms of it and of prims
-// above.
+// Meshes of USD files that move: point samples of a Mesh prim, sampled transforms of it and of prims above,
+// blend shapes and a skeleton.
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 
 #include "ringlet/base/result.h"
 #include "ringlet/motion/file_axis.h"
-#include "ringlet/motion/sampled_mesh.h"
+#include "ringlet/motion/mesh_motion.h"
 
 namespace ringlet {
 
@@ -25,13 +26,17 @@ struct UsdMeshChoice {
 bool isUsdFile(const std::filesystem::path& path);
 
 /// Times are time codes over the file's rate, 24 where it does not say. What transforms place is placed at
-/// every time at which one of them has a sample. Faces become triangles by a fan about their first corner.
-/// Warnings: a subdivision surface, of which the cage is taken; a mesh that does not move. Errors, with the
-/// file's name and the prim's path: those of the file's readers; no Mesh, or several and none named; a prim
-/// that other files compose, or a skeleton or blend shapes deform; faces that change, or name points that are
-/// not there; samples of other numbers of points. Cost: linear in the file; memory as of SampledMesh.
-Result<SampledMesh> readUsdMesh(std::span<const std::byte> bytes, const std::string& name,
-                                const UsdMeshChoice& choice = {});
-Result<SampledMesh> readUsdMesh(const std::filesystem::path& path, const UsdMeshChoice& choice = {});
+/// every time at which one of them has a sample. A mesh of joints stands where its Skeleton prim does. Faces
+/// become triangles by a fan about their first corner. Warnings: a subdivision surface, of which the cage is
+/// taken; a mesh that does not move; points without joint weights, blend shapes without weights, inbetween
+/// shapes, dual quaternions. Errors, with the file's name and the prim's path: those of the file's readers;
+/// no Mesh, or several and none named; a prim that other files compose; faces that change, or name points
+/// that are not there; samples of other numbers of points; a skeleton, animation or blend shape that is not
+/// there or does not fit. Cost: linear in the file; memory of points as of SampledMesh.
+Result<std::shared_ptr<const MeshMotion>> readUsdMesh(std::span<const std::byte> bytes,
+                                                      const std::string& name,
+                                                      const UsdMeshChoice& choice = {});
+Result<std::shared_ptr<const MeshMotion>> readUsdMesh(const std::filesystem::path& path,
+                                                      const UsdMeshChoice& choice = {});
 
 }  // namespace ringlet

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,6 +36,8 @@ struct UsdSample {
   UsdValue value{};
 };
 
+/// An attribute; or a relationship, whose value is the paths of its targets as texts, blocked where it is
+/// said to have none.
 struct UsdAttribute {
   std::string_view name;
   UsdValue value{};                      // the first sample's, where it has samples
@@ -56,16 +59,17 @@ struct UsdPrim {
   bool isActive = true;
   std::string_view composedBy;           // the first field that brings in other prims: "references" ...
   std::string_view deformedBy{};         // the first property that isUsdDeformation() names
-  std::vector<UsdAttribute> attributes;  // those that isKeptUsdAttribute() names
+  std::vector<UsdAttribute> attributes;  // those that isKeptUsdAttribute() and ...Relationship() name
 };
 
 struct UsdLayer {
   std::size_t byteCount = 0;   // of the file that said all this
   std::vector<UsdPrim> prims;  // in the file's order, parents first
   std::optional<double> metresPerUnit, timeCodesPerSecond;
-  std::string_view upAxis;      // "" where the file does not say
-  std::string_view composedBy;  // as of a prim, of the whole layer
-  std::vector<char> text;       // what views are into, unless they are into the file's own bytes
+  std::string_view upAxis;            // "" where the file does not say
+  std::string_view composedBy;        // as of a prim, of the whole layer
+  std::vector<char> text;             // what views are into, unless they are into the file's own bytes
+  std::deque<std::string> targets{};  // likewise, of relationships
 };
 
 /// Whether it is one of those that are carried from a groom to its animation.
@@ -76,15 +80,32 @@ inline bool isUsdValue(std::string_view name) {
 /// What of a file is kept: of strands their first samples; of meshes all.
 enum class UsdContent { strands, strandsAndValues, meshes };
 
+/// Whether a mesh that moves needs it: its points and faces, and what deforms it (motion/usd_skin.h).
+inline bool isUsdMeshAttribute(std::string_view primType, std::string_view name) {
+  if (name.starts_with("primvars:skel:") || name == "skel:joints") return true;
+  if (primType == "Mesh")
+    return name == "points" || name == "faceVertexCounts" || name == "faceVertexIndices" ||
+           name == "orientation" || name == "subdivisionScheme" || name == "skel:blendShapes";
+  if (primType == "Skeleton") return name == "joints" || name == "bindTransforms" || name == "restTransforms";
+  if (primType == "SkelAnimation")
+    return name == "joints" || name == "translations" || name == "rotations" || name == "scales" ||
+           name == "blendShapes" || name == "blendShapeWeights";
+  return primType == "BlendShape" &&
+         (name == "offsets" || name == "pointIndices" || name.starts_with("inbetweens:"));
+}
+
+/// Whether the targets of the relationship are kept.
+inline bool isKeptUsdRelationship(std::string_view name, UsdContent content) {
+  return content == UsdContent::meshes &&
+         (name == "skel:skeleton" || name == "skel:animationSource" || name == "skel:blendShapeTargets");
+}
+
 /// Whether the attribute of a prim of this type is kept; all others are read over. Widths of strands always
 /// are.
 inline bool isKeptUsdAttribute(std::string_view primType, std::string_view name, UsdContent content) {
   if (name == "xformOpOrder" || name == "visibility" || name == "purpose" || name.starts_with("xformOp:"))
     return true;
-  if (content == UsdContent::meshes)
-    return primType == "Mesh" &&
-           (name == "points" || name == "faceVertexCounts" || name == "faceVertexIndices" ||
-            name == "orientation" || name == "subdivisionScheme");
+  if (content == UsdContent::meshes) return isUsdMeshAttribute(primType, name);
   const bool keepsValues = content == UsdContent::strandsAndValues;
   if (primType == "BasisCurves" && (name == "widths" || (keepsValues && isUsdValue(name)))) return true;
   return primType == "BasisCurves" && (name == "points" || name == "curveVertexCounts" || name == "type" ||

@@ -490,14 +490,17 @@ class UsdaReader {
     const std::string_view part = accept('.') ? takeName() : "";
 
     UsdAttribute* attribute = nullptr;
-    if (type != "rel" && isKeptUsdAttribute(prim.type, name, content_)) {
+    const bool isRelationship = type == "rel";
+    if (isRelationship ? isKeptUsdRelationship(name, content_) && !takesAway
+                       : isKeptUsdAttribute(prim.type, name, content_)) {
       auto kept = attributeOf(prim, name);
       if (!kept) return kept.error();
       attribute = *kept;
       attribute->type = type;
     }
     if (accept('=')) {
-      const auto isFilled = readPropertyValue(attribute, part);
+      const auto isFilled =
+          isRelationship && attribute ? readTargets(*attribute) : readPropertyValue(attribute, part);
       if (!isFilled) return isFilled.error();
       if (*isFilled && !takesAway && isUsdDeformation(name) && prim.deformedBy.empty())
         prim.deformedBy = name;
@@ -519,6 +522,33 @@ class UsdaReader {
       const auto skipped = skipValue();
       return skipped ? Status{} : Status{skipped.error()};
     });
+  }
+
+  // </Path>, a list of such, or None. A second line of the same relationship adds to the first.
+  Result<bool> readTargets(UsdAttribute& relationship) {
+    std::vector<std::string_view>& targets = relationship.value.texts;
+    const auto readTarget = [&]() -> Status {
+      if (peek() != '<') return wanted("a path, as in </Root/Skeleton>");
+      auto target = takeDelimited();
+      if (!target) return target.error();
+      targets.push_back(*target);
+      return {};
+    };
+    Status read;
+    peek();
+    if (text_.substr(at_, 4) == "None") {
+      at_ += 4;
+    } else if (!accept('[')) {
+      read = readTarget();
+    } else {
+      while (read && !accept(']')) {
+        read = readTarget();
+        if (read && !accept(',') && peek() != ']') return wanted("',' or ']'");
+      }
+    }
+    if (!read) return read.error();
+    relationship.value.isBlocked = targets.empty();
+    return !targets.empty();
   }
 
   // Samples count more than the default, whichever stands first. Says whether it holds something.

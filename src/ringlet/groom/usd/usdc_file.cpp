@@ -22,6 +22,9 @@ namespace {
 
 using namespace usdc;
 
+// Bounds on the texts of targets, of the file's size: a list of paths is short, what it names may be long.
+constexpr std::size_t kTargetTextPerByte = 16, kFreeTargetText = 1 << 20;
+
 // The fields we look at.
 enum class Field : std::uint8_t {
   other,
@@ -216,6 +219,11 @@ class CrateReader {
           if (!isFilled) return isFilled.error();
           if (*isFilled) prim.deformedBy = name;
         }
+        if (!isCounts && isKeptRelationship(*child)) {
+          prim.attributes.push_back({.name = name});
+          if (Status done = readTargets(child->path, prim.attributes.back()); !done) return done;
+          continue;
+        }
         if (!isKept(prim, name) || isCounts != (name == "curveVertexCounts")) continue;
         if (crate_.paths()[child->path].spec != static_cast<std::uint8_t>(SpecType::attribute)) continue;
         if (prim.attributes.size() == kMostUsdAttributes)
@@ -244,7 +252,7 @@ class CrateReader {
                           : reading_.content == UsdContent::meshes ? Kept::all
                                                                    : Kept::first;
         const Status read = values_.readSamples(field.rep, mostElements, kept, attribute);
-        return isUsdValue(attribute.name) ? Status{} : read;
+        return isOnlyCarried(attribute) ? Status{} : read;
       }
       if (meaningOf(field) == Field::standard && !attribute.time) {
         return takeValue(values_.valueOf(field.rep, mostElements), attribute);
@@ -279,9 +287,62 @@ class CrateReader {
            (reading_.keepsPlaces && (name == "extent" || name == "velocities"));
   }
 
-  // What is only carried along may be of a kind that is not read.
-  static Status takeValue(Result<UsdValue> value, UsdAttribute& attribute) {
-    if (!value && !isUsdValue(attribute.name)) return value.error();
+  bool isKeptRelationship(const Child& property) const {
+    return crate_.paths()[property.path].spec == static_cast<std::uint8_t>(SpecType::relationship) &&
+           isKeptUsdRelationship(crate_.tokens()[property.token], reading_.content);
+  }
+
+  // The paths that its list brings in, in the order of the file.
+  Status readTargets(std::uint32_t path, UsdAttribute& relationship) {
+    return crate_.forEachField(path, [&](const NamedField& field) -> Status {
+      if (meaningOf(field) != Field::targets) return {};
+      std::uint64_t at = field.rep.payload();
+      if (field.rep.type() != kPathListType || !crate_.has(at, 1))
+        return crate_.wrong(at, "no list of paths", "one");
+      const unsigned lists = std::to_integer<unsigned>(crate_.bytes()[at++]);
+      for (const unsigned list : {2u, 4u, 32u, 64u}) {
+        if ((lists & list) == 0) continue;
+        if (!crate_.has(at, 8)) return crate_.ended(at, "a list of paths");
+        const std::uint64_t count = readU64(crate_.bytes(), at);
+        at += 8;
+        if (count > (crate_.bytes().size() - at) / 4) return crate_.ended(at, fmt::format("{} paths", count));
+        for (std::uint64_t i = 0; i < count; ++i, at += 4)
+          if (Status added = addTarget(at, relationship); !added) return added;
+      }
+      relationship.value.isBlocked = relationship.value.texts.empty();
+      return {};
+    });
+  }
+
+  // The path whose number is there.
+  Status addTarget(std::uint64_t at, UsdAttribute& relationship) {
+    const std::uint32_t target = readU32(crate_.bytes(), at);
+    const std::vector<Path>& paths = crate_.paths();
+    if (target >= paths.size() || !paths[target].isFound)
+      return crate_.wrong(at, fmt::format("path {}", target), "one that is there");
+    const std::size_t most = crate_.mostOf(kTargetTextPerByte, kFreeTargetText);
+    std::string text;
+    std::size_t depth = 0;
+    for (std::uint32_t p = target; p != crate_.root(); p = paths[p].parent) {
+      if (p == kNone || ++depth > kDeepestUsdPrim)
+        return crate_.wrong(at, fmt::format("path {}", target), "one of fewer levels");
+      text = (paths[p].isProperty ? "." : "/") + std::string(crate_.tokens()[paths[p].token]) + text;
+      if (targetText_ + text.size() > most)
+        return crate_.wrong(at, "more paths",
+                            fmt::format("at most {} bytes of them in so small a file", most));
+    }
+    targetText_ += text.size() + sizeof(std::string);
+    layer_.targets.push_back(std::move(text));
+    relationship.value.texts.push_back(layer_.targets.back());
+    return {};
+  }
+
+  // What is only carried along from a groom to its animation may be of a kind that is not read.
+  bool isOnlyCarried(const UsdAttribute& attribute) const {
+    return reading_.content != UsdContent::meshes && isUsdValue(attribute.name);
+  }
+  Status takeValue(Result<UsdValue> value, UsdAttribute& attribute) const {
+    if (!value && !isOnlyCarried(attribute)) return value.error();
     if (value) {
       attribute.value = std::move(*value);
     } else {
@@ -296,6 +357,7 @@ class CrateReader {
   std::vector<Field> meaning_;  // of each token
   std::vector<Child> children_;
   std::vector<bool> isVisited_;  // of each path
+  std::size_t targetText_ = 0;   // bytes of all targets so far
   UsdLayer layer_;
 };
 

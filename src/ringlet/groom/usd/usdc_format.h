@@ -18,6 +18,7 @@
 //   packed, five that are 0, 8 of type, 48 of payload: the value itself, or where it begins.
 //
 //   array         u64 count, the elements; u32 before 0.7.0, and before 0.5.0 u32 1 in front
+//   list of paths u8 of which lists there are (usdc_values.cpp); each u64 count, u32 path[count]
 //   time samples  i64 8, the value of the times (a vector of doubles); i64 8, u64 count, u64 value[count].
 //                 The 8 is how far on that stands which is meant; readers follow it, from its own place
 #pragma once
@@ -42,14 +43,15 @@ inline constexpr std::size_t kFewestPacked = 16;    // elements of an array that
 /// Jumps of PATHS; above 0: a child, and the sibling so many entries on.
 inline constexpr std::int32_t kLeaf = -2, kChildOnly = -1, kSiblingOnly = 0;
 
-enum class SpecType : std::uint32_t { attribute = 1, prim = 6, root = 7, last = 11 };
+enum class SpecType : std::uint32_t { attribute = 1, prim = 6, root = 7, relationship = 8, last = 11 };
 
 // Types of values that are no numbers or texts, or are named in the code.
 inline constexpr std::uint32_t kBoolType = 1, kIntType = 3, kFloatType = 8, kDoubleType = 9, kStringType = 10,
                                kTokenType = 11, kMatrix4dType = 15, kHalf2Type = 21, kVec3fType = 24,
-                               kDictionaryType = 31, kTokenVectorType = 41, kSpecifierType = 42,
-                               kVariabilityType = 44, kVariantMapType = 45, kSamplesType = 46,
-                               kDoubleVectorType = 48, kStringVectorType = 50, kBlockType = 51;
+                               kDictionaryType = 31, kPathListType = 34, kTokenVectorType = 41,
+                               kSpecifierType = 42, kVariabilityType = 44, kVariantMapType = 45,
+                               kSamplesType = 46, kDoubleVectorType = 48, kStringVectorType = 50,
+                               kBlockType = 51;
 
 /// A type of values: numbers of one kind, so many an element; or texts.
 enum class Kind : std::uint8_t { none, boolean, u8, i32, u32, i64, u64, half, f32, f64, token, string };
