@@ -97,10 +97,10 @@ class CrateBytes {
     for (std::size_t i = 0; i < count; ++i) append(values_, std::uint32_t{0});
     return Rep{type} << 48 | at;
   }
-  /// An explicit list of paths that are there already.
-  Rep pathList(const std::vector<std::string>& paths) {
+  /// A list of paths that are there already, explicit or one that is put before others.
+  Rep pathList(const std::vector<std::string>& paths, bool isPrepended = false) {
     const Rep at = place();
-    values_ += '\3';
+    values_ += isPrepended ? '\40' : '\3';
     append(values_, std::uint64_t{paths.size()});
     for (const std::string& path : paths) {
       const auto found = std::ranges::find(specs_, path, &Spec::path);

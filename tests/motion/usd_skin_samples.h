@@ -24,6 +24,7 @@ struct UsdSceneProperty {
   std::vector<std::string> texts{};
   std::vector<std::pair<double, std::vector<double>>> samples{};
   std::string interpolation{};
+  bool isPrepended = false;  // of "rel"
 };
 struct UsdScenePrim {
   std::string path, type;
@@ -120,7 +121,7 @@ class UsdScene {
     return isArray(property) ? "[" + all + "]" : all;
   }
   static std::string textOf(const UsdSceneProperty& property) {
-    std::string line = property.type + " " + property.name;
+    std::string line = (property.isPrepended ? "prepend " : "") + property.type + " " + property.name;
     if (!property.samples.empty()) {
       line += ".timeSamples = {";
       for (const auto& [time, numbers] : property.samples)
@@ -169,6 +170,7 @@ class UsdScene {
       for (const double number : numbers) halves.push_back(halfOf(number));
       return crate.array(25, halves, 3);
     }
+    if (type == "asset") return CrateBytes::inlined(12, 0);  // which is not read
     if (type == "float") return crate.real(static_cast<float>(numbers.front()));
     if (type.starts_with("int")) return numbersOf<std::int32_t>(crate, 3, property, numbers);
     if (type.starts_with("matrix4d")) return numbersOf<double>(crate, 15, property, numbers);
@@ -179,7 +181,8 @@ class UsdScene {
   static void addTo(CrateBytes& crate, const std::string& prim, const UsdSceneProperty& property) {
     const std::string path = prim + "." + property.name;
     if (property.type == "rel") {
-      crate.add(path, CrateBytes::kRelationship, {{"targetPaths", crate.pathList(property.texts)}});
+      crate.add(path, CrateBytes::kRelationship,
+                {{"targetPaths", crate.pathList(property.texts, property.isPrepended)}});
       return;
     }
     CrateBytes::Fields fields;

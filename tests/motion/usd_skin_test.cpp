@@ -166,6 +166,23 @@ TEST(UsdSkin, BindingsComeFromPrimsAbove) {
   EXPECT_LT(length((*mesh)->pointsAt(1.5)[4] - jointed(4, 1.5)), kNear);
 }
 
+TEST(UsdSkin, EditsOfTargetsAreTargets) {
+  UsdScene scene = arm::scene();
+  scene.at("/Root", "skel:skeleton").isPrepended = true;
+  scene.at("/Root/Arm", "skel:blendShapeTargets").isPrepended = true;
+  expectPoints(scene, arm::pointAt);
+
+  std::string text = arm::scene().text();
+  const std::string both = "rel skel:blendShapeTargets = [</Root/Arm/BulgeShape>, </Root/Arm/DentShape>]";
+  ASSERT_NE(text.find(both), text.npos);
+  text.replace(text.find(both), both.size(),
+               "prepend rel skel:blendShapeTargets = </Root/Arm/BulgeShape>\n"
+               "append rel skel:blendShapeTargets = [</Root/Arm/DentShape>,] ( doc = \"x\" )");
+  const auto mesh = readBytes(text);
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  EXPECT_LT(length((*mesh)->pointsAt(1.5)[3] - arm::pointAt(3, 1.5)), kNear);
+}
+
 // Joints whose parents come later, and one whose parent is not there: it hangs on the next one above.
 TEST(UsdSkin, NamesOfJointsAreTheHierarchy) {
   UsdScene scene = withoutShapes();
@@ -316,6 +333,8 @@ std::vector<Refusal> refusalsOfBindings() {
        "/Root/Arm: found 2 skel:blendShapes and 1 skel:blendShapeTargets; expected as many of each"},
       {"no skeleton", without("/Root", "skel:skeleton"),
        "/Root/Arm: has primvars:skel:jointIndices but no skel:skeleton, of its own or of a prim above"},
+      {"binding taken away", [](UsdScene& scene) { scene.at(kArm, "skel:skeleton", "rel").texts.clear(); },
+       "/Root/Arm: has primvars:skel:jointIndices but no skel:skeleton, of its own or of a prim above"},
       {"no weights", without(kArm, "primvars:skel:jointWeights"),
        "/Root/Arm: has primvars:skel:jointIndices but no primvars:skel:jointWeights"},
       {"unknown joint", withTexts(kArm, "skel:joints", {"Upper/Lower/Hand", "Upper", "Toe"}),
@@ -463,6 +482,8 @@ TEST(UsdSkin, SaysWhatIsWrongInText) {
              "/Root/Bones: has references, which are not followed; flatten the file first"},
         Case{changed("rel skel:skeleton = </Root/Bones>", "rel skel:skeleton = None"),
              "/Root/Arm: has primvars:skel:jointIndices but no skel:skeleton"},
+        Case{changed("rel skel:skeleton", "delete rel skel:skeleton"),
+             "/Root/Arm: has primvars:skel:jointIndices but no skel:skeleton"},
         Case{changed("rel skel:skeleton = </Root/Bones>", "rel skel:skeleton = \"Bones\""),
              "arm.usd: line 9: found"},
         Case{
@@ -475,6 +496,15 @@ TEST(UsdSkin, SaysWhatIsWrongInText) {
     EXPECT_NE(problem.find(c.message), std::string::npos)
         << "found    " << problem << "\nexpected " << c.message;
   }
+}
+
+// Values that grooms carry along unread must be read of a mesh.
+TEST(UsdSkin, RefusesWeightsOfAKindThatIsNotRead) {
+  UsdScene scene = arm::scene();
+  scene.at("/Root/Arm", "primvars:skel:jointWeights").type = "asset";
+  const auto mesh = readBytes(scene.crate());
+  ASSERT_FALSE(mesh);
+  EXPECT_EQ(mesh.error().message, "arm.usd: found a value of type 12; expected numbers or names");
 }
 
 // Every shorter file and every changed byte is read or refused, whole.

@@ -173,16 +173,33 @@ std::size_t UsdSkin::normalizeWeights() {
 
 bool UsdSkin::isMirroring() const { return dot(bind_.x, cross(bind_.y, bind_.z)) < 0; }
 
+// All points have one map, whose columns are the blended ones.
+Affine UsdSkin::rigidMap(const std::vector<Affine>& maps) const {
+  Affine blended{{}, {}, {}, {}};
+  for (const auto& [joint, weight] : influences_) {
+    const Affine& map = maps[joint];
+    blended.x += map.x * weight;
+    blended.y += map.y * weight;
+    blended.z += map.z * weight;
+    blended.position += map.position * weight;
+  }
+  return blended;
+}
+
 void UsdSkin::move(std::vector<Vec3d>& points, double seconds, const Affine& placement) const {
   const std::vector<Affine> poses = joints_.at(seconds);
   std::vector<Affine> maps;
   for (const Bound& bound : bound_) maps.push_back(placement * poses[bound.joint] * bound.bind);
   maps.push_back(placement * bind_);
+  if (isRigid_) {
+    const Affine map = rigidMap(maps);
+    for (Vec3d& point : points) point = map(point);
+    return;
+  }
   for (std::size_t p = 0; p < points.size(); ++p) {
-    const Influence* own = influences_.data() + (isRigid_ ? 0 : p * perPoint_);
     Vec3d place;
-    for (std::size_t k = 0; k < perPoint_; ++k)
-      if (own[k].weight != 0) place += maps[own[k].joint](points[p]) * own[k].weight;
+    for (std::size_t k = p * perPoint_; k < (p + 1) * perPoint_; ++k)
+      if (influences_[k].weight != 0) place += maps[influences_[k].joint](points[p]) * influences_[k].weight;
     points[p] = place;
   }
 }

@@ -50,6 +50,7 @@ class UsdSkin {
   Status readInfluences(const UsdPrims& prims, const UsdProperty& indices, const UsdProperty& weights,
                         std::size_t pointCount);
   std::size_t normalizeWeights();
+  Affine rigidMap(const std::vector<Affine>& maps) const;
 
   UsdJoints joints_;
   Affine bind_;  // of the mesh, into the skeleton's space
