@@ -14,6 +14,14 @@
 namespace ringlet::test::body_watch_test {
 namespace {
 
+void expectSame(const BodyNumbers& seen, const BodyNumbers& expected) {
+  EXPECT_EQ(seen.deepest, expected.deepest);
+  EXPECT_EQ(seen.strand, expected.strand);
+  EXPECT_EQ(seen.particle, expected.particle);
+  EXPECT_EQ(seen.frame, expected.frame);
+  EXPECT_EQ(seen.inside, expected.inside);
+}
+
 TEST(BodyDistance, OfEveryShape) {
   const auto bodies = sampleBodies();
   EXPECT_NEAR(distanceTo(bodies[0], {0.3, 0, 0.4}), 0.4, 1e-15);
@@ -142,12 +150,7 @@ TEST(BodyWatch, LeavesOutNothingThatIsInside) {
     expected.inside += place % kParticles != 0 && !wasOutside[place] ? 1 : 0;
   EXPECT_GT(expected.deepest, 0.05);
   EXPECT_GT(expected.inside, 10u);
-  const BodyNumbers seen = watch.numbers();
-  EXPECT_EQ(seen.deepest, expected.deepest);
-  EXPECT_EQ(seen.strand, expected.strand);
-  EXPECT_EQ(seen.particle, expected.particle);
-  EXPECT_EQ(seen.frame, expected.frame);
-  EXPECT_EQ(seen.inside, expected.inside);
+  expectSame(watch.numbers(), expected);
 }
 
 // A ball that bends: as it was at first, then where its points are, by its triangles and not by a grid.
@@ -219,12 +222,7 @@ TEST(BodyWatch, LeavesOutNothingThatIsInsideWhatBends) {
     expected.inside += i % kParticles != 0 && !wasOnIt[i] ? 1 : 0;
   EXPECT_GT(expected.deepest, 0.02);
   EXPECT_GT(expected.inside, 100u);
-  const BodyNumbers seen = watch.numbers();
-  EXPECT_EQ(seen.deepest, expected.deepest);
-  EXPECT_EQ(seen.strand, expected.strand);
-  EXPECT_EQ(seen.particle, expected.particle);
-  EXPECT_EQ(seen.frame, expected.frame);
-  EXPECT_EQ(seen.inside, expected.inside);
+  expectSame(watch.numbers(), expected);
 }
 
 }  // namespace

@@ -127,8 +127,10 @@ class ReportKeys : public testing::Test {
 
 TEST_F(ReportKeys, OfSimulateAndScene) {
   make("groom.obj");
+  std::ofstream(folder_ / "scene.toml")
+      << "[groom]\nfile = 'groom.obj'\n[[body]]\nshape = 'plane'\nposition = [0, -9, 0]\n";
   expectInHelp({"simulate"},
-               {{"simulate", "groom.obj", "--backend", "reference", "--frames", "1", "-o", "out"}});
+               {{"simulate", "scene.toml", "--backend", "reference", "--frames", "1", "-o", "out"}});
   expectInHelp({"simulate", "measure", "scene"},
                {{"scene", "hanging_curl", "--backend", "reference", "--seconds", "0.05"},
                 {"scene", "--list"},

@@ -104,14 +104,19 @@ TEST(ScalpProgram, SaysWhereRootsComeIntoABodyThatDoesNotBend) {
   }
 }
 
-// A body's mesh is the scalp: the same bits as where the scalp names the same file, and read once.
-TEST(ScalpProgram, IsTheMeshOfABody) {
-  const auto folder = folderWithFiles("scalp_of_body", 0);
+// The strip in every form that has samples: m.obj with m.pc2, m.usda and so on.
+void writeSampled(const std::filesystem::path& folder) {
   const auto strip = readSkinnedMesh(folder / "strip.glb");
   ASSERT_TRUE(strip) << strip.error().message;
   std::vector<std::vector<Vec3d>> samples;
   for (int frame = 0; frame <= 12; ++frame) samples.push_back(strip->pointsAt(frame / 24.0));
   test::writeMeshMotion(folder, "m", strip->triangles(), samples, 24);
+}
+
+// A body's mesh is the scalp: the same bits as where the scalp names the same file, and read once.
+TEST(ScalpProgram, IsTheMeshOfABody) {
+  const auto folder = folderWithFiles("scalp_of_body", 0);
+  ASSERT_NO_FATAL_FAILURE(writeSampled(folder));
   for (const std::string mesh :
        {"file = 'strip.glb'\n", "file = 'm.obj'\ncache = 'm.pc2'\ncache_fps = 24\nunit = 1\nstart = 0.125\n",
         "file = 'm.usda'\nmesh = 'M'\n"}) {
@@ -131,11 +136,7 @@ TEST(ScalpProgram, IsTheMeshOfABody) {
 // One mesh in every form: roots are on it, and forms with the same samples give the same hair.
 TEST(ScalpProgram, FollowsPointCachesAndSequences) {
   const auto folder = folderWithFiles("scalp_samples", 0);
-  const auto strip = readSkinnedMesh(folder / "strip.glb");
-  ASSERT_TRUE(strip) << strip.error().message;
-  std::vector<std::vector<Vec3d>> samples;
-  for (int frame = 0; frame <= 12; ++frame) samples.push_back(strip->pointsAt(frame / 24.0));
-  test::writeMeshMotion(folder, "m", strip->triangles(), samples, 24);
+  ASSERT_NO_FATAL_FAILURE(writeSampled(folder));
   std::vector<std::string> hashes;
   for (const char* scalp :
        {"file = 'm.obj'\ncache = 'm.pc2'", "file = 'm.obj'\ncache = 'm.pc2'\ncache_fps = 24",
