@@ -1,7 +1,8 @@
-// Half precision (IEEE 754 binary16) from float, as shaders unpack it.
+// Half precision (IEEE 754 binary16): from float, as shaders unpack it, and back.
 #pragma once
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 
 namespace ringlet {
@@ -21,6 +22,15 @@ inline std::uint16_t halfBits(float value) {
   const std::uint32_t half = digits >> dropped, rest = digits & ((1u << dropped) - 1),
                       tie = 1u << (dropped - 1);
   return static_cast<std::uint16_t>(sign | (half + (rest > tie || (rest == tie && (half & 1)) ? 1 : 0)));
+}
+
+/// Exactly the number that a half's 16 bits stand for.
+inline double halfValue(std::uint32_t bits) {
+  const std::uint32_t exponent = bits >> 10 & 31, digits = bits & 1023;
+  const double size = exponent == 31  ? (digits ? std::nan("") : HUGE_VAL)
+                      : exponent == 0 ? std::ldexp(digits, -24)
+                                      : std::ldexp(1024 + digits, static_cast<int>(exponent) - 25);
+  return bits >> 15 & 1 ? -size : size;
 }
 
 }  // namespace ringlet

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "ringlet/bodies/mesh_file.h"
+#include "ringlet/motion/abc_mesh.h"
 #include "ringlet/motion/motion_file.h"
 #include "ringlet/motion/point_cache.h"
 #include "ringlet/motion/sampled_mesh.h"
@@ -161,6 +162,8 @@ Result<MeshPointer> readSequence(const MeshMotionChoice& choice, bool upIsZ) {
 
 }  // namespace
 
+bool isWithoutUnit(const fs::path& path) { return isObjMesh(path) || isAbcFile(path); }
+
 bool isMeshSequence(const fs::path& path) { return path.filename().string().find('#') != std::string::npos; }
 
 std::vector<fs::path> meshSequenceFiles(const fs::path& pattern) {
@@ -192,6 +195,7 @@ Result<MeshPointer> readMeshMotion(const MeshMotionChoice& choice, bool upIsZ) {
   if (!choice.cache.empty())
     return Error{fmt::format("{}: found a point cache, {}, beside it; only an OBJ file has one", name,
                              choice.cache.string())};
+  if (isAbcFile(choice.path)) return readAbcMesh(choice.path, {choice.mesh, worldOf(choice, upIsZ)});
   if (isUsdFile(choice.path))
     return readUsdMesh(choice.path, {choice.mesh, choice.metresPerUnit, choice.up, upIsZ});
   auto mesh = readSkinnedMesh(choice.path, {.node = choice.mesh,

@@ -1,5 +1,5 @@
-// Meshes that move, from files: skins of glTF and USD, point samples of USD, point caches over an OBJ file,
-// sequences of OBJ files.
+// Meshes that move, from files: skins of glTF and USD, point samples of USD and Alembic, point caches over
+// an OBJ file, sequences of OBJ files.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,7 @@ namespace ringlet {
 struct MeshMotionChoice {
   std::filesystem::path path;     // of kMeshMotionEndings; '#'s in its name: a sequence
   std::filesystem::path cache{};  // of an .obj: .pc2 or .mdd, with points in the same order
-  std::string mesh{};       // glTF: of it, or of its node; USD: of the prim, or its path; empty: the only one
+  std::string mesh{};       // glTF: of it, or of its node; USD, Alembic: of the prim or object, or its path
   std::string animation{};  // glTF: a name or a number from 0; empty: the first
   std::optional<double> metresPerUnit{};  // unset: the file's; 1 where it has none
   std::optional<FileAxis> up{};           // of the file; unset: the file's; ours where it has none
@@ -26,7 +26,10 @@ struct MeshMotionChoice {
 
 /// The endings of files that have points over time, for messages.
 inline constexpr const char* kMeshMotionEndings =
-    ".gltf, .glb, .vrm, .usda, .usdc, .usd, .usdz, .obj with a point cache (.pc2, .mdd), or a sequence as in body.####.obj";
+    ".gltf, .glb, .vrm, .usda, .usdc, .usd, .usdz, .abc, .obj with a point cache (.pc2, .mdd), or a sequence as in body.####.obj";
+
+/// Whether files of this ending state neither unit nor axis, so that those of the groom count: .obj, .abc.
+bool isWithoutUnit(const std::filesystem::path& path);
 
 /// Whether the name has '#'s, which stand for the digits of a frame's number.
 bool isMeshSequence(const std::filesystem::path& path);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "ringlet/base/half.h"
 #include "ringlet/base/little_endian.h"
 
 namespace ringlet::usdc {
@@ -16,14 +17,6 @@ namespace {
 // Bounds on what a file unpacks to, of its size: equal values are stored once, so that a file may have more
 // numbers than bytes.
 constexpr std::size_t kNumbersPerByte = 16, kFreeNumbers = 1 << 16;
-
-double fromHalf(std::uint32_t bits) {
-  const std::uint32_t exponent = bits >> 10 & 31, digits = bits & 1023;
-  const double size = exponent == 31  ? (digits ? std::nan("") : HUGE_VAL)
-                      : exponent == 0 ? std::ldexp(digits, -24)
-                                      : std::ldexp(1024 + digits, static_cast<int>(exponent) - 25);
-  return bits >> 15 & 1 ? -size : size;
-}
 
 }  // namespace
 
@@ -40,7 +33,7 @@ double CrateValues::numberAt(Kind kind, std::uint64_t at) const {
     case Kind::u64:
       return static_cast<double>(readU64(crate_.bytes(), at));
     case Kind::half:
-      return fromHalf(readU16(crate_.bytes(), at));
+      return halfValue(readU16(crate_.bytes(), at));
     case Kind::f32:
       return readF32(crate_.bytes(), at);
     case Kind::f64:
@@ -108,13 +101,13 @@ Status CrateValues::readInline(Rep rep, const Type& type, UsdValue& value) {
     value.numbers.assign(type.width, 0);
     for (std::size_t i = 0; i < side; ++i) value.numbers[i * side + i] = small(i);
   } else if (rep.type() == kHalf2Type) {
-    value.numbers = {fromHalf(bits & 0xffff), fromHalf(bits >> 16)};
+    value.numbers = {halfValue(bits & 0xffff), halfValue(bits >> 16)};
   } else if (type.width > 1) {
     if (type.isQuaternion)
       return Error{fmt::format("{}: found a quaternion in a value's own bits", crate_.name())};
     for (std::size_t i = 0; i < type.width; ++i) value.numbers.push_back(small(i));
   } else if (type.kind == Kind::half) {
-    value.numbers = {fromHalf(bits & 0xffff)};
+    value.numbers = {halfValue(bits & 0xffff)};
   } else if (type.kind == Kind::f32 || type.kind == Kind::f64) {
     value.numbers = {std::bit_cast<float>(bits)};
   } else if (type.kind == Kind::boolean || type.kind == Kind::u8) {

@@ -333,23 +333,24 @@ std::span<const SceneField<SceneScalp>> scalpFields() {
   static const SceneField<S> all[] = {
       {"file", "", "none",
        "File of the mesh whose nearest triangles the roots follow: a .gltf, .glb or .vrm file, which may be "
-       "motion.file where the head follows a joint of it; a .usda, .usdc, .usd or .usdz file with samples of "
-       "points; an .obj file with a cache; or a sequence of .obj files, as body.####.obj, where each # stands "
+       "motion.file where the head follows a joint of it; a .usda, .usdc, .usd, .usdz or .abc file with samples "
+       "of points; an .obj file with a cache; or a sequence of .obj files, as body.####.obj, where each # stands "
        "for a digit of the frame's number.",
        &S::file},
       {"body", "", "none", "In place of a file: name of a body that deforms, whose mesh it is.", &S::body},
       {"cache", "", "none",
        "Point cache of an .obj file, .pc2 or .mdd: its points over time, in the same order, in the world.",
        &S::cache},
-      {"mesh", "", "the only one", "Name of the mesh: glTF's own or its node's; a USD prim's name or path.",
+      {"mesh", "", "the only one",
+       "Name of the mesh: glTF's own or its node's; a USD prim's or an Alembic object's name or path.",
        &S::mesh},
       {"animation", "", "the head's where it is the same file, else the first",
        "glTF: animation, by name or number from 0.", &S::animation},
-      {"unit", "m", "the head's where it is the same file, else the file's; the groom's of .obj",
+      {"unit", "m", "the head's where it is the same file, else the file's; the groom's of .obj and .abc",
        "Metres per unit of the file.", &S::metresPerUnit, kUnit},
       {"up",
        "",
-       "the head's where it is the same file, else the file's; the groom's of .obj",
+       "the head's where it is the same file, else the file's; the groom's of .obj and .abc",
        "The axis of the file that points up.",
        &S::up,
        {},
@@ -433,14 +434,15 @@ std::span<const SceneField<SceneBody>> bodyFields() {
          .unit = "",
          .standard = "none",
          .effect =
-             "File of closed surfaces: an .obj file, or a .gltf, .glb, .vrm, .usda, .usdc, .usd or .usdz "
-             "file, of which a mesh is taken as it is at its first key or sample.",
+             "File of closed surfaces: an .obj file, or a .gltf, .glb, .vrm, .usda, .usdc, .usd, .usdz or "
+             ".abc file, of which a mesh is taken as it is at its first key or sample.",
          .member = &B::file,
          .onlyWith = "mesh"},
         {.key = "mesh",
          .unit = "",
          .standard = "the only one",
-         .effect = "Name of the mesh: glTF's own or its node's; a USD prim's name or path.",
+         .effect =
+             "Name of the mesh: glTF's own or its node's; a USD prim's or an Alembic object's name or path.",
          .member = &B::mesh,
          .onlyWith = "mesh"},
         {.key = "generate",
@@ -454,7 +456,7 @@ std::span<const SceneField<SceneBody>> bodyFields() {
          .onlyWith = "mesh"},
         {.key = "unit",
          .unit = "m",
-         .standard = "the groom's of .obj, else the file's",
+         .standard = "the groom's of .obj and .abc, else the file's",
          .effect = "Metres per unit of the mesh's file.",
          .member = &B::metresPerUnit,
          .allowed = kUnit,

@@ -21,6 +21,7 @@
 #include "ringlet/measure/joint_check.h"
 #include "ringlet/measure/material_suggestion.h"
 #include "ringlet/measure/placement_check.h"
+#include "ringlet/motion/abc_mesh.h"
 #include "ringlet/motion/bust_motion.h"
 #include "ringlet/motion/mesh_motion_file.h"
 #include "ringlet/motion/motion_file.h"
@@ -41,12 +42,14 @@
 namespace ringlet {
 namespace {
 
-constexpr const char* kBodyEndings = ".obj, .gltf, .glb, .vrm, .usda, .usdc, .usd and .usdz files";
+constexpr const char* kBodyEndings = ".obj, .gltf, .glb, .vrm, .usda, .usdc, .usd, .usdz and .abc files";
 
-// Of a glTF or USD file, turned up, a mesh as it is at the first key or sample; it does not bend.
-Result<TriangleMesh> readMeshAtFirst(const SceneBody& scene, bool upIsZ, std::vector<std::string>& warnings) {
-  const auto read =
-      readMeshMotion({.path = scene.file, .mesh = scene.mesh, .metresPerUnit = scene.metresPerUnit}, upIsZ);
+// Of a glTF, USD or Alembic file, turned up, a mesh as it is at the first key or sample; it does not bend.
+Result<TriangleMesh> readMeshAtFirst(const SceneBody& scene, bool upIsZ, double metresPerUnit,
+                                     std::vector<std::string>& warnings) {
+  MeshMotionChoice choice{.path = scene.file, .mesh = scene.mesh, .metresPerUnit = scene.metresPerUnit};
+  if (!choice.metresPerUnit && isWithoutUnit(scene.file)) choice.metresPerUnit = metresPerUnit;
+  const auto read = readMeshMotion(choice, upIsZ);
   if (!read) return read.error();
   const MeshMotion& moving = **read;
   for (const std::string& warning : moving.warnings())
@@ -69,12 +72,13 @@ Result<TriangleMesh> meshOf(const SceneBody& scene, const SceneGroom& groom, dou
     const auto motion = generatedMotion(scene.generate);
     mesh = {motion->pointsAt(0), motion->triangles()};
   } else {
-    const bool isPlaced =
-        isUsdFile(scene.file) || motionFileKind(scene.file.string()) == MotionFileKind::gltf;
+    const bool isPlaced = isUsdFile(scene.file) || isAbcFile(scene.file) ||
+                          motionFileKind(scene.file.string()) == MotionFileKind::gltf;
     if (!isPlaced && !scene.mesh.empty())
-      return Error{fmt::format("{}: found the mesh {}; only a glTF or USD file has meshes with names",
-                               scene.file.string(), ringlet::quoted(scene.mesh))};
-    auto read = isPlaced ? readMeshAtFirst(scene, groom.up == "Z", warnings)
+      return Error{
+          fmt::format("{}: found the mesh {}; only a glTF, USD or Alembic file has meshes with names",
+                      scene.file.string(), ringlet::quoted(scene.mesh))};
+    auto read = isPlaced ? readMeshAtFirst(scene, groom.up == "Z", metresPerUnit, warnings)
                          : readObjMesh(scene.file, scene.metresPerUnit.value_or(metresPerUnit));
     if (!read && !isPlaced && !isObjMesh(scene.file)) {
       return Error{fmt::format("{}; bodies are read from {}", read.error().message, kBodyEndings),

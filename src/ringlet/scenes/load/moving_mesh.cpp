@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "ringlet/bodies/mesh_file.h"
 #include "ringlet/motion/bust_motion.h"
 #include "ringlet/motion/file_axis.h"
 #include "ringlet/motion/mesh_motion_file.h"
@@ -49,7 +48,7 @@ Result<MovingMesh> readMovingMesh(const MovingMeshSource& source, const SceneFil
   if (isHeads && choice.animation.empty()) choice.animation = head.animation;
   if (isHeads && !choice.metresPerUnit) choice.metresPerUnit = head.metresPerUnit;
   if (isHeads && !choice.up) choice.up = fileAxisNamed(head.up);
-  if (!choice.metresPerUnit && isObjMesh(source.file)) choice.metresPerUnit = loaded.groom.metresPerUnit;
+  if (!choice.metresPerUnit && isWithoutUnit(source.file)) choice.metresPerUnit = loaded.groom.metresPerUnit;
   auto mesh = readMeshMotion(choice, file.groom.up == "Z");
   if (!mesh) return mesh.error();
   for (const std::string& warning : (*mesh)->warnings())
