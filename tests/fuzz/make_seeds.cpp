@@ -31,6 +31,7 @@
 #include "tests/groom/tfx_bytes.h"
 #include "tests/groom/usda_samples.h"
 #include "tests/groom/zip_bytes.h"
+#include "tests/motion/abc_samples.h"
 #include "tests/motion/gltf_samples.h"
 #include "tests/motion/mesh_motion_samples.h"
 #include "tests/motion/usd_skin_samples.h"
@@ -126,6 +127,23 @@ void writeMeshes(const fs::path& folder) {
         "4 5 1\n");
 }
 
+// Below objects that move, with times of each kind and a sample that is stored once.
+test::AbcBytes placedAbcMesh(const std::vector<std::vector<Vec3d>>& samples) {
+  test::AbcBytes file;
+  file.samplings = {{}, {0.04, {1}}, {1, {0, 0.25}}, {test::AbcBytes::kNoCycle, {0, 1, 3, 4, 9}}};
+  test::AbcBytes::Object mesh =
+      test::abcMesh("M", {4, 3}, {0, 2, 1, 0, 0, 1, 2}, samples, 3, "AbcGeom_SubD_v1");
+  test::AbcBytes::Property& points = mesh.properties[0].parts[0];
+  points.count = 5;
+  points.firstChanged = points.lastChanged = 2;
+  const std::vector<double> matrix{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  file.objects = {
+      test::abcXform("A", {0x10, 0x00, 0x20}, {{1, 2, 3, 1, 1, 2, 0, 0, 1, 30}}, 0,
+                     {test::abcXform("B", {0x50}, {{0}, {90}, {0}}, 2,
+                                     {test::abcXform("C", {0x30}, {matrix, matrix}, 1, {mesh})})})};
+  return file;
+}
+
 void writeMotions(const fs::path& folder) {
   write(seed(folder, "bvh_file", "neck"),
         "HIERARCHY\nROOT Hips\n{\n\tOFFSET 0 0 0\n\tCHANNELS 6 Xposition Yposition Zposition Zrotation "
@@ -144,6 +162,8 @@ void writeMotions(const fs::path& folder) {
                        "  uniform token[] xformOpOrder = [\"xformOp:translate\"]\n"));
   write(seed(folder, "usd_mesh", "arm.usda"), test::arm::scene().text());
   write(seed(folder, "usd_mesh", "arm.usdc"), test::arm::scene().crate());
+  write(seed(folder, "abc_mesh", "triangle"), test::abcMeshBytes({{0, 1, 2}}, samples, 24));
+  write(seed(folder, "abc_mesh", "placed"), placedAbcMesh(samples).bytes());
   const test::GltfBuilder strip = test::bendingStrip(1, 5121, 5126);
   write(seed(folder, "gltf_file", "strip.gltf"), strip.text());
   write(seed(folder, "gltf_file", "strip.glb"), strip.glb());
@@ -297,6 +317,9 @@ void writeDictionaries(const fs::path& folder) {
                                      "1e38"};
   for (const char* fuzzer : {"usda_file", "usdc_file", "usdz_file", "usd_mesh"})
     write(folder / (std::string(fuzzer) + ".dict"), dictionary(usd));
+  write(folder / "abc_mesh.dict",
+        dictionary(std::vector<std::string>{"AbcGeom_PolyMesh_v1", "AbcGeom_SubD_v1", "AbcGeom_Xform_v3",
+                                            ".geom", ".xform", ".faceIndices", ".faceCounts", ".inherits"}));
   write(folder / "ply_file.dict", dictionary(std::vector<std::string>{
                                       "element strand ", "element edge ", "property list uchar int ", "nsegs",
                                       "vertex1", "format binary_little_endian 1.0", "end_header"}));

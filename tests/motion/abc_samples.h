@@ -1,6 +1,8 @@
 // Meshes of Alembic files for tests.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 

@@ -1,4 +1,4 @@
-// Files of a mesh whose points move: an OBJ file with a point cache, or one OBJ file a frame.
+// Files of a mesh whose points move, in every form that is read.
 #pragma once
 
 #include <fmt/format.h>
@@ -13,6 +13,7 @@
 
 #include "ringlet/bodies/triangle_mesh.h"
 #include "tests/groom/crate_bytes.h"
+#include "tests/motion/abc_samples.h"
 
 namespace ringlet::test {
 
@@ -115,8 +116,8 @@ inline void writeBytes(const std::filesystem::path& path, const std::string& byt
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-/// NAME.obj with NAME.pc2 and NAME.mdd, NAME.usda and NAME.usdc, and NAME.0007.obj and on: of one mesh, all
-/// samples.
+/// NAME.obj with NAME.pc2 and NAME.mdd, NAME.usda, NAME.usdc and NAME.abc, and NAME.0007.obj and on: of one
+/// mesh, all samples.
 inline void writeMeshMotion(const std::filesystem::path& folder, const std::string& name,
                             const Triangles& triangles, const std::vector<std::vector<Vec3d>>& samples,
                             double framesPerSecond) {
@@ -124,6 +125,7 @@ inline void writeMeshMotion(const std::filesystem::path& folder, const std::stri
   writeBytes(folder / (name + ".pc2"), pc2Bytes(samples));
   writeBytes(folder / (name + ".mdd"), mddBytes(samples, 1 / framesPerSecond));
   writeBytes(folder / (name + ".usdc"), usdcBytes(triangles, samples, framesPerSecond));
+  writeBytes(folder / (name + ".abc"), abcMeshBytes(triangles, samples, framesPerSecond));
   writeBytes(folder / (name + ".usda"), usdaText(triangles, samples, framesPerSecond));
   for (std::size_t k = 0; k < samples.size(); ++k)
     writeBytes(folder / fmt::format("{}.{:04}.obj", name, k + 7), objText(samples[k], triangles));

@@ -45,7 +45,8 @@ std::vector<Form> formsIn(const std::filesystem::path& folder) {
           {"mdd", mdd},
           {"sequence", sequence},
           {"usda", {.path = folder / "m.usda"}},
-          {"usdc", {.path = folder / "m.usdc"}}};
+          {"usdc", {.path = folder / "m.usdc"}},
+          {"abc", {.path = folder / "m.abc"}}};
 }
 
 std::string problemOf(const MeshMotionChoice& choice) {

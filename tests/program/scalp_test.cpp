@@ -141,7 +141,7 @@ TEST(ScalpProgram, FollowsPointCachesAndSequences) {
   for (const char* scalp :
        {"file = 'm.obj'\ncache = 'm.pc2'", "file = 'm.obj'\ncache = 'm.pc2'\ncache_fps = 24",
         "file = 'm.obj'\ncache = 'm.mdd'", "file = 'm.####.obj'\nup = 'Y'", "file = 'm.usda'\nmesh = 'M'",
-        "file = 'm.usdc'\nmesh = '/M'"}) {
+        "file = 'm.usdc'\nmesh = '/M'", "file = 'm.abc'\nmesh = '/M'\nup = 'Y'"}) {
     writeScene(folder / "scene.toml", fmt::format("[motion]\nkind = 'nod'\n[scalp]\n{}\nunit = 1\n", scalp));
     std::filesystem::remove_all(folder / "out");
     const json run = simulate(folder, "reference");

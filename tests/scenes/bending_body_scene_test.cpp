@@ -54,7 +54,8 @@ Result<LoadedScene> loadedWith(const std::filesystem::path& folder, const std::s
 TEST(BendingBodyScene, EveryKindOfFileGivesItsPoints) {
   const auto folder = folderWithBall("bending_body_forms");
   for (const char* file : {"file = 'ball.obj'\ncache = 'ball.pc2'", "file = 'ball.obj'\ncache = 'ball.mdd'",
-                           "file = 'ball.####.obj'", "file = 'ball.usda'", "file = 'ball.usdc'"}) {
+                           "file = 'ball.####.obj'", "file = 'ball.usda'", "file = 'ball.usdc'",
+                           "file = 'ball.abc'\nmesh = 'M'"}) {
     SCOPED_TRACE(file);
     const auto loaded = loadedWith(folder, std::string(file) + "\ndeforms = true\nunit = 1\ncells = 20\n");
     ASSERT_TRUE(loaded) << loaded.error().message;

@@ -16,6 +16,7 @@
 #include "ringlet/bodies/body_distance.h"
 #include "ringlet/bodies/head_mesh.h"
 #include "ringlet/rest/rest_state.h"
+#include "tests/bodies/body_samples.h"
 #include "tests/motion/gltf_samples.h"
 #include "tests/motion/mesh_motion_samples.h"
 #include "tests/support/test_support.h"
@@ -172,6 +173,36 @@ TEST(LoadScene, UsdBodiesAreNamedMeshes) {
   const auto refused = loadScene(*unnamed);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("/Post, /Wall"), std::string::npos) << refused.error().message;
+}
+
+// Alembic states neither unit nor axis: the groom's count, or the key's.
+TEST(LoadScene, AlembicBodiesAreInTheGroomsUnitAndAxes) {
+  const auto folder = test::scratchFolder("load_scene_abc_body");
+  const TriangleMesh ball = test::sphereMesh(0.1, 4);
+  const auto pointsAt = [&](double x, double scale) {
+    std::vector<Vec3d> points;
+    for (const Vec3d& p : ball.points) points.push_back((p + Vec3d{x, 0, 0.3}) * scale);
+    return points;
+  };
+  for (const double scale : {1.0, 100.0}) {
+    test::AbcBytes file;
+    file.objects = {test::abcMesh("Ball", ball.triangles, {pointsAt(0, scale), pointsAt(5, scale)}, 0),
+                    test::abcMesh("Other", ball.triangles, {pointsAt(1, scale)}, 0)};
+    test::writeBytes(folder / "balls.abc", file.bytes());
+    for (const char* up : {"Y", "Z"}) {
+      const std::string unit = scale > 1 ? "unit = 0.01\n" : "";
+      const auto scene =
+          parseScene(fmt::format("{}up = \"{}\"\n[[body]]\nshape = \"mesh\"\nfile = \"balls.abc\"\n"
+                                 "mesh = \"/Ball\"\n{}",
+                                 kCurl, up, unit),
+                     "the scene", folder);
+      ASSERT_TRUE(scene) << scene.error().message;
+      const auto made = loadScene(*scene);
+      ASSERT_TRUE(made) << made.error().message;
+      EXPECT_LT(distanceTo(made->bodies[0], {0, 0, 0.3}), -0.05) << "up is " << up;
+      EXPECT_NEAR(distanceTo(made->bodies[0], {0, 0.3, 0.3}), 0.2, 0.02) << "up is " << up;
+    }
+  }
 }
 
 // What a body, a scalp or the head cannot be read from is said with what it can, and is the input's fault.

@@ -166,8 +166,7 @@ std::vector<double> AbcTransforms::seconds() const {
       if (track->seconds.size() > 1) all.insert(all.end(), track->seconds.begin(), track->seconds.end());
   }
   std::ranges::sort(all);
-  const auto rest = std::ranges::unique(all);
-  all.erase(rest.begin(), rest.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }
 
