@@ -190,7 +190,7 @@ TEST(LoadScene, AlembicBodiesAreInTheGroomsUnitAndAxes) {
                     test::abcMesh("Other", ball.triangles, {pointsAt(1, scale)}, 0)};
     test::writeBytes(folder / "balls.abc", file.bytes());
     for (const char* up : {"Y", "Z"}) {
-      const std::string unit = scale > 1 ? "unit = 0.01\n" : "";
+      const std::string unit = scale > 1 ? "" : "unit = 1\n";  // the groom is in centimetres
       const auto scene =
           parseScene(fmt::format("{}up = \"{}\"\n[[body]]\nshape = \"mesh\"\nfile = \"balls.abc\"\n"
                                  "mesh = \"/Ball\"\n{}",
