@@ -218,6 +218,26 @@ TEST(AbcArchive, RefusesOtherFilesByName) {
   expectProblem(problemOf(file.bytes()), "found library version 900; expected 9999");
 }
 
+// A group or data may end with the file, and no byte later.
+TEST(AbcArchive, RefusesWhatReachesBeyondTheFile) {
+  std::string file = AbcBytes{}.bytes();
+  const auto childOf = [](std::uint64_t place, bool isData) {
+    return OgawaChild{place | (std::uint64_t{isData} << 63)};
+  };
+  const std::uint64_t end = file.size();
+  for (const bool isData : {false, true}) {
+    for (const std::uint64_t count : {2u, 3u}) {
+      std::string bytes = file + abcNumber<std::uint64_t>(isData ? 8 * count : count) + std::string(16, '\0');
+      const auto ogawa = OgawaFile::of(bytesOf(bytes), "a.abc");
+      ASSERT_TRUE(ogawa) << ogawa.error().message;
+      const std::string problem = isData ? sampleProblem(ogawa->data(childOf(end, true)))
+                                         : sampleProblem(ogawa->group(childOf(end, false)));
+      EXPECT_EQ(problem.empty(), count == 2) << problem;
+      if (count > 2) expectProblem(problem, isData ? "data of 24 bytes" : "a group of 3 children");
+    }
+  }
+}
+
 // Children that are their own parent, as no program writes them, and objects deeper than is read.
 TEST(AbcArchive, RefusesCirclesAndDepths) {
   AbcBytes::Object chain{.name = "end"};
