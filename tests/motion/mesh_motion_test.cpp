@@ -254,7 +254,7 @@ TEST(UsdMesh, SaysWhatItCannotUse) {
 // quads.
 TEST(UsdMesh, ReadsTheCape) {
   RINGLET_NEEDS_DATA(path, "bend/cape.usda");
-  const auto read = readUsdMesh(path, {.upIsZ = true});
+  const auto read = readMeshMotion({.path = path}, true);
   ASSERT_TRUE(read) << read.error().message;
   const auto& mesh = *read;
   EXPECT_EQ(mesh->pointCount(), 225u);

@@ -6,14 +6,12 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <new>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "ringlet/base/file_ending.h"
 #include "ringlet/base/quoted.h"
-#include "ringlet/base/whole_file.h"
 #include "ringlet/groom/alembic/abc_archive.h"
 #include "ringlet/groom/alembic/abc_transform.h"
 #include "ringlet/motion/sampled_mesh.h"
@@ -224,17 +222,6 @@ Result<AbcMeshPointer> readAbcMesh(std::span<const std::byte> bytes, const std::
   const auto archive = AbcArchive::of(bytes, name);
   if (!archive) return archive.error();
   return AbcMeshMaker(*archive, choice).make();
-}
-
-Result<AbcMeshPointer> readAbcMesh(const std::filesystem::path& path, const AbcMeshChoice& choice) {
-  try {
-    const auto bytes = readWholeFile(path);
-    if (!bytes) return bytes.error();
-    return readAbcMesh(*bytes, path.string(), choice);
-  } catch (const std::bad_alloc&) {
-    return Error{fmt::format("{}: reading it needs more memory than there is", path.string()),
-                 Fault::hostMemory};
-  }
 }
 
 }  // namespace ringlet

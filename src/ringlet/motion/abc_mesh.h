@@ -31,7 +31,5 @@ bool isAbcFile(const std::filesystem::path& path);
 Result<std::shared_ptr<const MeshMotion>> readAbcMesh(std::span<const std::byte> bytes,
                                                       const std::string& name,
                                                       const AbcMeshChoice& choice = {});
-Result<std::shared_ptr<const MeshMotion>> readAbcMesh(const std::filesystem::path& path,
-                                                      const AbcMeshChoice& choice = {});
 
 }  // namespace ringlet

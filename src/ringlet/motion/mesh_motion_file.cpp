@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "ringlet/base/whole_file.h"
 #include "ringlet/bodies/mesh_file.h"
 #include "ringlet/motion/abc_mesh.h"
 #include "ringlet/motion/motion_file.h"
@@ -160,6 +161,41 @@ Result<MeshPointer> readSequence(const MeshMotionChoice& choice, bool upIsZ) {
   return sampled(std::move(first), std::move(samples), choice, upIsZ);
 }
 
+Result<MeshPointer> readOfObj(const MeshMotionChoice& choice, bool upIsZ) {
+  if (isMeshSequence(choice.path)) return readSequence(choice, upIsZ);
+  if (!choice.cache.empty()) return readCached(choice, upIsZ);
+  return Error{
+      fmt::format("{}: an OBJ file has one pose; expected a point cache beside it (.pc2, .mdd), or a "
+                  "sequence as in body.####.obj",
+                  choice.path.string())};
+}
+
+Result<MeshPointer> readOfArchive(const MeshMotionChoice& choice, bool upIsZ) {
+  const auto bytes = readWholeFile(choice.path);
+  if (!bytes) return bytes.error();
+  const std::string name = choice.path.string();
+  if (isAbcFile(choice.path)) return readAbcMesh(*bytes, name, {choice.mesh, worldOf(choice, upIsZ)});
+  return readUsdMesh(*bytes, name, {choice.mesh, choice.metresPerUnit, choice.up, upIsZ});
+}
+
+Result<MeshPointer> readOfAny(const MeshMotionChoice& choice, bool upIsZ) {
+  const std::string name = choice.path.string();
+  if (isObjMesh(choice.path)) return readOfObj(choice, upIsZ);
+  if (!choice.cache.empty())
+    return Error{fmt::format("{}: found a point cache, {}, beside it; only an OBJ file has one", name,
+                             choice.cache.string())};
+  if (isAbcFile(choice.path) || isUsdFile(choice.path)) return readOfArchive(choice, upIsZ);
+  auto mesh = readSkinnedMesh(choice.path, {.node = choice.mesh,
+                                            .animation = choice.animation,
+                                            .placement = {.metresPerUnit = choice.metresPerUnit.value_or(1),
+                                                          .upIsZ = upIsZ,
+                                                          .up = choice.up.value_or(FileAxis::plusY)}});
+  if (mesh) return MeshPointer(std::make_shared<const SkinnedMesh>(std::move(*mesh)));
+  if (motionFileKind(name) == MotionFileKind::gltf) return mesh.error();
+  return Error{fmt::format("{}; a mesh that moves is read from {}", mesh.error().message, kMeshMotionEndings),
+               mesh.error().fault};
+}
+
 }  // namespace
 
 bool isWithoutUnit(const fs::path& path) { return isObjMesh(path) || isAbcFile(path); }
@@ -179,34 +215,12 @@ std::vector<fs::path> meshMotionFiles(const fs::path& path, const fs::path& cach
 }
 
 Result<MeshPointer> readMeshMotion(const MeshMotionChoice& choice, bool upIsZ) {
-  const std::string name = choice.path.string();
-  if (isObjMesh(choice.path)) {
-    try {
-      if (isMeshSequence(choice.path)) return readSequence(choice, upIsZ);
-      if (!choice.cache.empty()) return readCached(choice, upIsZ);
-    } catch (const std::bad_alloc&) {
-      return Error{fmt::format("{}: reading it needs more memory than there is", name), Fault::hostMemory};
-    }
-    return Error{
-        fmt::format("{}: an OBJ file has one pose; expected a point cache beside it (.pc2, .mdd), or a "
-                    "sequence as in body.####.obj",
-                    name)};
+  try {
+    return readOfAny(choice, upIsZ);
+  } catch (const std::bad_alloc&) {
+    return Error{fmt::format("{}: reading it needs more memory than there is", choice.path.string()),
+                 Fault::hostMemory};
   }
-  if (!choice.cache.empty())
-    return Error{fmt::format("{}: found a point cache, {}, beside it; only an OBJ file has one", name,
-                             choice.cache.string())};
-  if (isAbcFile(choice.path)) return readAbcMesh(choice.path, {choice.mesh, worldOf(choice, upIsZ)});
-  if (isUsdFile(choice.path))
-    return readUsdMesh(choice.path, {choice.mesh, choice.metresPerUnit, choice.up, upIsZ});
-  auto mesh = readSkinnedMesh(choice.path, {.node = choice.mesh,
-                                            .animation = choice.animation,
-                                            .placement = {.metresPerUnit = choice.metresPerUnit.value_or(1),
-                                                          .upIsZ = upIsZ,
-                                                          .up = choice.up.value_or(FileAxis::plusY)}});
-  if (mesh) return MeshPointer(std::make_shared<const SkinnedMesh>(std::move(*mesh)));
-  if (motionFileKind(name) == MotionFileKind::gltf) return mesh.error();
-  return Error{fmt::format("{}; a mesh that moves is read from {}", mesh.error().message, kMeshMotionEndings),
-               mesh.error().fault};
 }
 
 }  // namespace ringlet

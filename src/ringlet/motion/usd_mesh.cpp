@@ -7,14 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <new>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "ringlet/base/file_ending.h"
 #include "ringlet/base/quoted.h"
-#include "ringlet/base/whole_file.h"
 #include "ringlet/groom/usd/usd_file.h"
 #include "ringlet/motion/sampled_mesh.h"
 #include "ringlet/motion/usd_prims.h"
@@ -209,17 +207,6 @@ Result<UsdMeshPointer> readUsdMesh(std::span<const std::byte> bytes, const std::
   const auto layer = readUsdLayer(bytes, name, UsdContent::meshes);
   if (!layer) return layer.error();
   return UsdMeshMaker(*layer, name, choice).make();
-}
-
-Result<UsdMeshPointer> readUsdMesh(const std::filesystem::path& path, const UsdMeshChoice& choice) {
-  try {
-    const auto bytes = readWholeFile(path);
-    if (!bytes) return bytes.error();
-    return readUsdMesh(*bytes, path.string(), choice);
-  } catch (const std::bad_alloc&) {
-    return Error{fmt::format("{}: reading it needs more memory than there is", path.string()),
-                 Fault::hostMemory};
-  }
 }
 
 }  // namespace ringlet

@@ -36,7 +36,5 @@ bool isUsdFile(const std::filesystem::path& path);
 Result<std::shared_ptr<const MeshMotion>> readUsdMesh(std::span<const std::byte> bytes,
                                                       const std::string& name,
                                                       const UsdMeshChoice& choice = {});
-Result<std::shared_ptr<const MeshMotion>> readUsdMesh(const std::filesystem::path& path,
-                                                      const UsdMeshChoice& choice = {});
 
 }  // namespace ringlet
