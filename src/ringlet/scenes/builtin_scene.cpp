@@ -18,6 +18,7 @@
 #include "ringlet/scenes/load/bending_body.h"
 #include "ringlet/scenes/load/idle_dials.h"
 #include "ringlet/scenes/load/scene_parts.h"
+#include "ringlet/scenes/load/scene_scalp.h"
 #include "ringlet/scenes/scene_grooms.h"
 
 namespace ringlet {

@@ -333,8 +333,8 @@ std::span<const SceneField<SceneScalp>> scalpFields() {
   static const SceneField<S> all[] = {
       {"file", "", "none",
        "File of the mesh whose nearest triangles the roots follow: a .gltf, .glb or .vrm file, which may be "
-       "motion.file where the head follows a joint of it; a .usda, .usdc, .usd, .usdz or .abc file with samples "
-       "of points; an .obj file with a cache; or a sequence of .obj files, as body.####.obj, where each # stands "
+       "motion.file where the head follows a joint of it; a .usda, .usdc, .usd, .usdz or .abc file whose mesh "
+       "moves; an .obj file with a cache; or a sequence of .obj files, as body.####.obj, where each # stands "
        "for a digit of the frame's number.",
        &S::file},
       {"body", "", "none", "In place of a file: name of a body that deforms, whose mesh it is.", &S::body},

@@ -12,6 +12,7 @@
 #include "ringlet/bodies/make_bending_mesh.h"
 #include "ringlet/groom/root_ends.h"
 #include "ringlet/measure/head_fit.h"
+#include "ringlet/motion/bust_motion.h"
 #include "ringlet/scenes/load/moving_mesh.h"
 
 namespace ringlet {
@@ -120,7 +121,8 @@ Bounds placesOf(const MovingBody& moving, const Body& body, const LoadedScene& l
 Status loadBendingBody(const SceneFile& file, std::size_t index, LoadedScene& loaded) {
   const SceneBody& scene = file.bodies[index];
   Body& body = loaded.bodies[index];
-  const auto read = readMovingMesh(sourceOf(scene), file, loaded);
+  const auto read = scene.generate.empty() ? readMovingMesh(sourceOf(scene), file, loaded)
+                                           : Result(MovingMesh{generatedMotion(scene.generate), {}});
   if (!read)
     return Error{fmt::format("the body {}: {}", body.name, read.error().message), read.error().fault};
   MovingBody moving{index, read->mesh, scene.start, read->offset, body};

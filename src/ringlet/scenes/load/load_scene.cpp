@@ -33,10 +33,10 @@
 #include "ringlet/scenes/load/bending_body.h"
 #include "ringlet/scenes/load/idle_dials.h"
 #include "ringlet/scenes/load/motion_reach.h"
-#include "ringlet/scenes/load/moving_mesh.h"
 #include "ringlet/scenes/load/scalp_doubts.h"
 #include "ringlet/scenes/load/scene_maps.h"
 #include "ringlet/scenes/load/scene_parts.h"
+#include "ringlet/scenes/load/scene_scalp.h"
 #include "ringlet/scenes/load/world_bind.h"
 
 namespace ringlet {
@@ -161,45 +161,6 @@ Result<Motion> loadedMotion(const SceneFile& scene, const Settings& settings,
   cutJumps(settings, motion);
   return motion;
 }
-
-// Of the body of which it is the mesh, both have the same points.
-Result<MovingMesh> meshOfScalp(const SceneFile& file, LoadedScene& loaded) {
-  if (file.scalp.body.empty()) return readMovingMesh(sourceOf(file.scalp), file, loaded);
-  for (const MovingBody& moving : loaded.moving)
-    if (file.bodies[moving.body].name == file.scalp.body) return MovingMesh{moving.mesh, moving.offset};
-  return Error{fmt::format("no body named {} deforms", ringlet::quoted(file.scalp.body))};
-}
-
-// When the mesh's first key is [s].
-double startOfScalp(const SceneFile& file) {
-  for (const SceneBody& body : file.bodies)
-    if (!file.scalp.body.empty() && body.name == file.scalp.body) return body.start;
-  return file.scalp.start;
-}
-
-}  // namespace
-
-Status loadScalp(const SceneFile& file, LoadedScene& loaded) {
-  const std::string name = file.scalp.body.empty() ? sourceOf(file.scalp).name() : file.scalp.body;
-  const auto read = meshOfScalp(file, loaded);
-  if (!read) return Error{fmt::format("the scalp: {}", read.error().message), read.error().fault};
-
-  const Groom& groom = loaded.groom;
-  const std::vector<Vec3d> roots = rootPlaces(groom);
-  const HeadScalpChoice binding{
-      .start = startOfScalp(file), .farthest = file.scalp.farthest, .offset = read->offset};
-  const auto ends = doubtOfRootEnds(*read->mesh, groom, loaded.motion, binding, "the scalp " + name);
-  auto scalp = HeadScalp::bind(read->mesh, roots, loaded.motion, binding);
-  if (!scalp) {
-    return Error{fmt::format("the scalp {}: {}{}", name, scalp.error().message,
-                             ends ? fmt::format("; {}", *ends) : std::string())};
-  }
-  if (ends) loaded.warnings.push_back(*ends);
-  loaded.scalp = std::move(*scalp);
-  return {};
-}
-
-namespace {
 
 // Of a file's groom: whether it runs from tip to root, or lies on its side. `statesUp`: the file does.
 void checkGroomFile(const SceneFile& scene, bool statesUp, LoadedScene& loaded) {

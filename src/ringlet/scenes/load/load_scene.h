@@ -79,10 +79,6 @@ struct LoadedScene {
   std::vector<std::string> notes{};     // likewise, of what is well and may be better
 };
 
-/// The scene's scalp with the groom's roots bound to it. What of `loaded` it needs is there: groom, motion,
-/// settings. Errors: those of readMeshMotion and HeadScalp::bind. Warnings go to loaded.warnings.
-Status loadScalp(const SceneFile& scene, LoadedScene& loaded);
-
 /// Reads all that the file names, and chooses the steps a frame where it leaves them open. `known`: its
 /// groom, where loadGroom has read it already, and `geometry` that groom's. Warnings also say what seems to
 /// be of another unit, place or axis than the rest. Errors: those of the parts; a material that its dials

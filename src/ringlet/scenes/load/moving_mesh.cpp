@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "ringlet/motion/bust_motion.h"
 #include "ringlet/motion/file_axis.h"
 #include "ringlet/motion/mesh_motion_file.h"
 
@@ -12,7 +11,6 @@ namespace ringlet {
 MovingMeshSource sourceOf(const SceneScalp& scalp) {
   return {.file = scalp.file,
           .cache = scalp.cache,
-          .generate = {},
           .mesh = scalp.mesh,
           .animation = scalp.animation,
           .up = scalp.up,
@@ -23,7 +21,6 @@ MovingMeshSource sourceOf(const SceneScalp& scalp) {
 MovingMeshSource sourceOf(const SceneBody& body) {
   return {.file = body.file,
           .cache = body.cache,
-          .generate = body.generate,
           .mesh = body.mesh,
           .animation = body.animation,
           .up = {},
@@ -33,7 +30,6 @@ MovingMeshSource sourceOf(const SceneBody& body) {
 
 Result<MovingMesh> readMovingMesh(const MovingMeshSource& source, const SceneFile& file,
                                   LoadedScene& loaded) {
-  if (!source.generate.empty()) return MovingMesh{generatedMotion(source.generate), {}};
   const SceneMotion& head = file.motion;
   std::error_code code;  // files that are not there are no error of this
   const bool isHeads = !head.file.empty() && std::filesystem::equivalent(head.file, source.file, code);
@@ -52,7 +48,7 @@ Result<MovingMesh> readMovingMesh(const MovingMeshSource& source, const SceneFil
   auto mesh = readMeshMotion(choice, file.groom.up == "Z");
   if (!mesh) return mesh.error();
   for (const std::string& warning : (*mesh)->warnings())
-    loaded.warnings.push_back(fmt::format("{}: {}", source.name(), warning));
+    loaded.warnings.push_back(fmt::format("{}: {}", source.file.string(), warning));
   return MovingMesh{std::move(*mesh), isHeads ? loaded.motion.start : Vec3d{}};
 }
 

@@ -16,11 +16,8 @@ namespace ringlet {
 /// As motion/mesh_motion_file.h takes it; what is empty is as the kind of file has it.
 struct MovingMeshSource {
   std::filesystem::path file, cache;
-  std::string generate, mesh, animation, up;
+  std::string mesh, animation, up;
   std::optional<double> metresPerUnit, framesPerSecond;
-
-  /// In words for messages.
-  std::string name() const { return generate.empty() ? file.string() : generate; }
 };
 
 MovingMeshSource sourceOf(const SceneScalp& scalp);
