@@ -68,6 +68,11 @@ TEST(BodyWatch, CountsWhatIsCaught) {
   mesh->cell = 0.004;
   bending.mesh = mesh;
   EXPECT_NEAR(keepsOutWithin(bending), 0.0021, 1e-12);
+  Body rigid{.shape = BodyShape::grid};
+  auto grid = std::make_shared<DistanceGrid>();
+  grid->cell = 0.002;
+  rigid.grid = grid;
+  EXPECT_NEAR(keepsOutWithin(rigid), 0.0011, 1e-12);
   const std::vector<Body> bodies{{.radius = 0.1}, {.radius = 0.2}};
   EXPECT_NEAR(keepsOutWithin(bodies[0]), 1e-4, 1e-12);
   const std::vector<BodyPose> poses{{{0, 0, 0}, {}}, {{3, 0, 0}, {}}};

@@ -1,8 +1,8 @@
 // Implements bodies/cape_mesh.h: rows from the collar's rim down, between the two edges in front.
 //
-//         \\  /        collar: out and up from the neck
+//         \  /        collar: out and up from the neck
 //       .--'--'--.     on the shoulders: off the bust, along its normals
-//      /          \\   .
+//      /          \   .
 //      |          |    hem: straight down, a little outwards
 #include "ringlet/bodies/cape_mesh.h"
 

@@ -132,9 +132,13 @@ class BentSurface {
 
 }  // namespace
 
-double keepsOutWithin(const Body& body) {
-  return kCorrected + (body.bends() && !body.isCloth() ? body.mesh->cell / 2 : 0);
+std::optional<double> gridCellOf(const Body& body) {
+  if (body.isCloth()) return std::nullopt;
+  if (body.bends()) return body.mesh->cell;
+  return body.grid ? std::optional(body.grid->cell) : std::nullopt;
 }
+
+double keepsOutWithin(const Body& body) { return kCorrected + gridCellOf(body).value_or(0) / 2; }
 
 BodyWatch::BodyWatch(const Groom& groom, std::span<const Body> bodies, int rootCount)
     : firstPoint_(groom.firstPoint),

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,8 +13,9 @@
 
 namespace ringlet {
 
-/// Depth up to which a body keeps hair out of its triangles or its form [m]: of a mesh that bends, half a
-/// cell of its grid more. Of a mesh that does not, the form is its grid.
+/// Edge of a cell of its distance grid [m]; none of an exact form and of cloth.
+std::optional<double> gridCellOf(const Body& body);
+/// Depth up to which a body keeps hair out [m]; half a cell more where it has a grid.
 double keepsOutWithin(const Body& body);
 
 /// Over all frames given to look; of one body or all.

@@ -22,7 +22,6 @@
 #include "ringlet/run/stepper.h"
 #include "ringlet/run/trace_file.h"
 #include "ringlet/run/writer_thread.h"
-#include "ringlet/scene/body_forms.h"
 #include "ringlet/scenes/frames/scene_frames.h"
 #include "ringlet/version.h"
 
@@ -368,18 +367,8 @@ Status Run::Work::finishFiles() {
 
 void Run::Work::tellBodies() {
   outcome_.bodyNumbers = bodyWatch_->numbers();
-  for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
-    const Body& body = scene_.bodies[b];
-    BodyOutcome told{.name = body.name,
-                     .shape = std::string(nameOf(body.shape)),
-                     .bends = body.bends(),
-                     .isCloth = body.isCloth(),
-                     .within = keepsOutWithin(body),
-                     .numbers = bodyWatch_->numbersOf(b)};
-    if (body.bends() && !body.isCloth()) told.cell = body.mesh->cell;
-    if (!body.bends() && body.grid) told.cell = body.grid->cell;
-    outcome_.bodies.push_back(std::move(told));
-  }
+  for (std::size_t b = 0; b < scene_.bodies.size(); ++b)
+    outcome_.bodies.push_back(bodyOutcome(scene_.bodies[b], bodyWatch_->numbersOf(b)));
 }
 
 Status Run::Work::tellReports() {

@@ -11,6 +11,7 @@
 #include "ringlet/base/vec3.h"
 #include "ringlet/measure/body_watch.h"
 #include "ringlet/measure/contact_numbers.h"
+#include "ringlet/run/body_outcome.h"
 #include "ringlet/run/scene_hair.h"
 #include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/simulation.h"
@@ -29,18 +30,6 @@ struct RunSeconds {
 struct FrameMilliseconds {
   double first = 0, median = 0, least = 0;
 };
-
-/// What became of hair at a body.
-struct BodyOutcome {
-  std::string name, shape;
-  bool bends = false, isCloth = false;
-  std::optional<double> cell{};  // edge of a cell of its grid [m]; none of an exact form and of cloth
-  double within = 0;             // keepsOutWithin [m]
-  BodyNumbers numbers;
-};
-
-/// In words, if hair was caught in it: where it was deepest, and what may help.
-std::optional<std::string> caughtWarning(const BodyOutcome& body);
 
 /// Times of stages and waits are per finished frame [ms].
 struct RunOutcome {
