@@ -7,13 +7,11 @@
 namespace ringlet::reference {
 namespace {
 
-constexpr double kBand = 2;  // cells, of layout::kMeshBand
-
 bool isNear(const BendingMesh& mesh, Vec3d p) {
   for (const auto& [place, count] : {std::pair((p.x - mesh.origin.x) / mesh.cell, mesh.counts[0]),
                                      {(p.y - mesh.origin.y) / mesh.cell, mesh.counts[1]},
                                      {(p.z - mesh.origin.z) / mesh.cell, mesh.counts[2]}})
-    if (place < -kBand || place > double(count) + kBand) return false;
+    if (place < -kMeshBand || place > double(count) + kMeshBand) return false;
   return true;
 }
 
@@ -95,7 +93,7 @@ void BendingMotion<Real>::beginFrame(std::span<const BodyPose> start, std::span<
     std::vector<BendingField<Real>>& made = fields_.emplace_back();
     for (std::size_t m = 0; m < bending_.size(); ++m)
       made.push_back(bendingField<Real>(*bodies_[bending_[m]].mesh, at[g][m], at[std::min(g + 1, builds)][m],
-                                        static_cast<Real>(kBand)));
+                                        static_cast<Real>(kMeshBand)));
   }
   for (std::size_t g = 0; g < builds; ++g)
     for (std::size_t k = ofStep[g]; k < ofStep[g + 1]; ++k)

@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "reference/equations/body_distance.h"
+#include "reference/kernels/mesh_field.h"
+#include "ringlet/follow/posed_bodies.h"
 #include "ringlet/measure/core.h"
 
 namespace ringlet::reference {
@@ -39,6 +41,8 @@ struct HairPoint {
   std::vector<Beside> guides;  // whose weights add up to 1
 };
 
+constexpr int kRoundsOutOfGrid = 3;  // from far inside, distances in a grid lead out of it roughly
+
 Vector3<double> outOfBodies(const HairPoint& point, std::span<const Body> bodies,
                             std::span<const BodyPose> poses) {
   Vector3<double> x = point.x;
@@ -48,14 +52,16 @@ Vector3<double> outOfBodies(const HairPoint& point, std::span<const Body> bodies
     const auto surfaceAt = [&](const Vector3<double>& p) {
       return bodyDistance<double>(bodies[b], turn.conjugate() * (p - origin));
     };
-    const Surface<double> there = surfaceAt(x);
     double ofGuides = 0;
     for (const Beside& guide : point.guides)
       ofGuides += guide.weight * ((1 - guide.between) * surfaceAt(pointOf(*guide.before)).distance +
                                   guide.between * surfaceAt(pointOf(*guide.after)).distance);
-    const double way =
-        wayOutBesideGuide(there.distance, ofGuides, surfaceAt(point.root).distance, point.share);
-    x += way * (turn * there.normal);
+    const double kept = keptBesideGuide(ofGuides, surfaceAt(point.root).distance, point.share);
+    const int rounds = bodies[b].shape == BodyShape::grid ? kRoundsOutOfGrid : 1;
+    for (int round = 0; round < rounds; ++round) {
+      const Surface<double> there = surfaceAt(x);
+      x += std::max(kept - there.distance, 0.0) * (turn * there.normal);
+    }
   }
   return x;
 }
@@ -73,6 +79,24 @@ std::size_t pointsBefore(std::size_t begin, const FollowHair& hair, std::size_t 
   std::size_t i = 0;
   while (i < points && alongGuide(i, hair, points - 1) < static_cast<double>(begin) - 0.5) ++i;
   return i;
+}
+
+std::vector<Body> bodiesMetAt(std::span<const Body> bodies, std::span<const std::vector<Vec3d>> points) {
+  std::vector<Body> met = metByFollowers(bodies);
+  const std::vector<std::vector<Vec3d>> metPoints = metByFollowers(bodies, points);
+  std::size_t m = 0;
+  for (Body& body : met) {
+    if (!body.bends()) continue;
+    const BendingMesh& mesh = *body.mesh;
+    const auto surface = mesh.surface.pointsOf(metPoints.empty() ? mesh.points : metPoints[m++]);
+    auto grid = std::make_shared<DistanceGrid>(
+        DistanceGrid{.origin = mesh.origin, .cell = mesh.cell, .counts = mesh.counts});
+    for (const double cells : meshField<double>(mesh, surface, kMeshBand).distances)
+      grid->distances.push_back(static_cast<float>(cells * mesh.cell));
+    body.grid = std::move(grid);
+    body.mesh = nullptr;
+  }
+  return met;
 }
 
 GuidePose poseGuide(const GuideRest& rest, std::span<const Vec3d> positions, Quatd head) {

@@ -27,6 +27,10 @@ GuidePose poseGuide(const GuideRest& rest, std::span<const Vec3d> positions, Qua
 /// Those of FollowHair::others; none where its share is 0.
 using OtherPoses = std::array<const GuidePose*, 2>;
 
+/// Bodies as hairs that follow meet them: each that bends has the grid of its points, seen from what carries
+/// it [m], or as before the first frame where there are none; of cloth a grain.
+std::vector<Body> bodiesMetAt(std::span<const Body> bodies, std::span<const std::vector<Vec3d>> points);
+
 /// The points of a hair, as many as its guide's [m], out of bodies at `poses`, one a body. `rootOnScalp`:
 /// where its root is in this pose [m]; none: where the head carries it.
 std::vector<Vec3d> followGuide(const FollowHair& hair, const GuidePose& guide,

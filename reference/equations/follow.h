@@ -22,11 +22,12 @@
 // from the point, from the guide beside it (between two particles, what is between theirs, since particles
 // are what bodies hold out) and from the hair's root, negative inside, the point goes out of the body by
 //
-//     max(min(0, D, (1 - r) D_root) - d_x, 0)
+//     max(h - d_x, 0),  h = min(0, D, (1 - r) D_root)
 //
 // where D of several guides is the sum of w_j D_j. So it goes no further than its guide is out: a guide that
 // passes through a body takes its hairs along, where a hair of its own mind would jump. Roots stay on the
-// scalp, which may be some way inside.
+// scalp, which may be some way inside. Distances in a grid lead out of it only roughly from far inside, so
+// that points leave it in three such moves.
 #pragma once
 
 #include <algorithm>
@@ -91,11 +92,11 @@ Vector3<Real> blendedPoint(const FollowHair& hair, const Vector3<Real>& offset, 
          spread * ((1 - r) * rootOffset + r * (place.frame * offset));
 }
 
-/// Distances [m] from the surface of a body, negative inside: of the point, its guide beside it and its root.
+/// h, from distances [m] from the surface of a body, negative inside: of the guide beside a point, and of the
+/// root.
 template <class Real>
-Real wayOutBesideGuide(Real ofPoint, Real ofGuide, Real ofRoot, Real share) {
-  const Real kept = std::min({Real(0), ofGuide, (1 - risesOver(Real(1) / 5, share)) * ofRoot});
-  return std::max(kept - ofPoint, Real(0));
+Real keptBesideGuide(Real ofGuide, Real ofRoot, Real share) {
+  return std::min({Real(0), ofGuide, (1 - risesOver(Real(1) / 5, share)) * ofRoot});
 }
 
 }  // namespace ringlet::reference

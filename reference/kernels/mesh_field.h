@@ -11,6 +11,8 @@
 
 namespace ringlet::reference {
 
+inline constexpr double kMeshBand = 2;  // cells, of layout::kMeshBand
+
 /// Of each corner of the grid, x fastest.
 template <class Real>
 struct MeshField {

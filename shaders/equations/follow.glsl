@@ -68,11 +68,10 @@ vec3 blendedPoint(float spread, vec3 offset, GuidePlace place, vec3 rootOffset, 
          k * ((1.0 - r) * rootOffset + r * rotate(place.frame, offset));
 }
 
-/// How far a point is pushed out of a body [m]: no farther than its guide and its own root are. Distances
-/// from the body's surface, negative inside: of the point, of its guide beside it, and of its root [m].
-float wayOutBesideGuide(float ofPoint, float ofGuide, float ofRoot, float share) {
-  float kept = min(0.0, min(ofGuide, (1.0 - risesOver(0.2, share)) * ofRoot));
-  return max(kept - ofPoint, 0.0);
+/// The distance from a body's surface, negative inside, from which a point is kept [m]: no farther out than its
+/// guide beside it and its own root are, whose distances these are [m].
+float keptBesideGuide(float ofGuide, float ofRoot, float share) {
+  return min(0.0, min(ofGuide, (1.0 - risesOver(0.2, share)) * ofRoot));
 }
 
 #endif

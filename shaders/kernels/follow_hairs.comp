@@ -1,22 +1,24 @@
 // Every point of every hair that follows a guide: an invocation for each point, with as many points in a hair
-// as the longest guide has particles. Compiled with RINGLET_AMONG_BODIES it also lists points near bodies,
+// as the longest guide has particles. Compiled with RINGLET_AMONG_BODIES it also lists points inside bodies,
 // for follow_bodies.comp. Mirrored by reference/follow_guide.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#ifdef RINGLET_AMONG_BODIES
+#include "shared/body_buffers.glsl"
+#endif
 #include "shared/hair_on_guide.glsl"
 
 layout(set = 0, binding = kBindHairPoints) writeonly buffer HairPoints { uvec4 hairPoints[]; };
 
 #ifdef RINGLET_AMONG_BODIES
-layout(set = 0, binding = kBindBodySpheres) readonly buffer BodySpheres { vec4 bodySpheres[]; };
-layout(set = 0, binding = kBindNearCount) buffer Counts { NearCount counts; };
-layout(set = 0, binding = kBindNearPoints) writeonly buffer NearPoints { uint nearPoints[]; };
+layout(set = 0, binding = kBindInsideCount) buffer Counts { InsideCount counts; };
+layout(set = 0, binding = kBindInsidePoints) writeonly buffer InsidePoints { uint insidePoints[]; };
 
-bool isNearBodies(vec3 x) {
-  bool isNear = false;
+bool isInsideBodies(vec3 x) {
+  bool isInside = false;
   for (uint b = 0; b < parameters.bodyCount; ++b)
-    isNear = isNear || length(bodySpheres[b].xyz - x) <= bodySpheres[b].w;
-  return isNear;
+    isInside = isInside || distanceFrom(bodyRest(b), bodyPose(b), x) < 0.0;
+  return isInside;
 }
 #endif
 
@@ -31,10 +33,10 @@ void main() {
   vec3 x = followed(point);
   hairPoints[hair.firstPoint + i] = uvec4(floatBitsToUint(x), point.tag);
 #ifdef RINGLET_AMONG_BODIES
-  if (isNearBodies(x)) {
+  if (isInsideBodies(x)) {
     uint k = atomicAdd(counts.points, 1);
     if (k % gl_WorkGroupSize.x == 0) atomicAdd(counts.indirect[0], 1);
-    nearPoints[k] = gl_GlobalInvocationID.x;
+    insidePoints[k] = gl_GlobalInvocationID.x;
   }
 #endif
 }

@@ -22,11 +22,10 @@ RINGLET_CONSTANT uint kBindCurls = 6;         // vec4[guide particles]: offset o
                                               // along the core's frame [m], 0
 RINGLET_CONSTANT uint kBindFollowHairs = 7;   // FollowHair[hairs]
 RINGLET_CONSTANT uint kBindHairPoints = 8;    // uvec4[points of hairs]: hair_points.h
-RINGLET_CONSTANT uint kBindBodySpheres = 9;   // vec4[bodies]: bounding sphere: xyz: centre [m]; w: radius [m]
-RINGLET_CONSTANT uint kBindNearCount = 10;    // NearCount
-RINGLET_CONSTANT uint kBindNearPoints = 11;   // uint[points near bodies]: index of the invocation of
+RINGLET_CONSTANT uint kBindInsideCount = 9;   // InsideCount
+RINGLET_CONSTANT uint kBindInsidePoints = 10; // uint[points inside bodies]: index of the invocation of
                                               // follow_hairs
-RINGLET_CONSTANT uint kBindFollowBlends = 12; // FollowBlend[hairs], if hairs follow several guides
+RINGLET_CONSTANT uint kBindFollowBlends = 11; // FollowBlend[hairs], if hairs follow several guides
 // True: roots are at FollowHair::rootOffset, on a deforming scalp; false: the head carries them.
 RINGLET_CONSTANT uint kSpecOnScalp = 2;
 RINGLET_CONSTANT uint kSpecCutGuides = 3;  // guides may be cut
@@ -69,8 +68,8 @@ struct FollowBlend {
   uint unused[2];
 };
 
-// The points of hairs near bodies: their number, also as workgroups.
-struct NearCount {
+// The points of hairs inside bodies: their number, also as workgroups.
+struct InsideCount {
   uint indirect[3];
   uint points;
 };

@@ -56,6 +56,11 @@ Surface bodyDistance(BodyRest body, vec3 y) {
   return surface;
 }
 
+/// Of a body in a pose, from its surface to p [m].
+float distanceFrom(BodyRest body, BodyPose pose, vec3 p) {
+  return bodyDistance(body, rotate(conjugate(pose.rotation), p - pose.position)).distance;
+}
+
 // A body during a step, and transforms between its frame and the strand's.
 struct BodyStep {
   BodyRest rest;

@@ -74,8 +74,7 @@ Status HairPane::attach(gpu::Device& device, const Simulation& hair,
 }
 
 Status HairPane::setFrame(const Camera& camera, const HeadPose& head, std::span<const SolidPlace> solids,
-                          std::span<const BodyPose> bodies, std::span<const Vec3d> roots,
-                          std::span<const Vec3d> strandRoots) {
+                          const HairSurroundings& about) {
   // Hair is relative to the head's origin, so that everything else is too.
   Camera near = camera;
   near.eye -= head.position;
@@ -83,8 +82,8 @@ Status HairPane::setFrame(const Camera& camera, const HeadPose& head, std::span<
   std::vector<SolidPlace> places(solids.begin(), solids.end());
   for (SolidPlace& place : places) place.position -= head.position;
   if (follow_) {
-    follow_->setBodies(bodies, head.position);
-    if (Status set = follow_->setRoots(roots, strandRoots); !set) return set;
+    follow_->setBodies(about.bodies, about.bodyPoints, head.position);
+    if (Status set = follow_->setRoots(about.roots, about.strandRoots); !set) return set;
   }
   const Vec3d margin = Vec3d{1, 1, 1} * kMargin;
   return renderer_->setFrame(near, {box_.low - margin, box_.high + margin}, places);

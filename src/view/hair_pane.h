@@ -36,6 +36,14 @@ struct PaneLook {
   double width = 0.001;  // of hairs at the root [m]
 };
 
+/// What hairs that follow have about them.
+struct HairSurroundings {
+  std::span<const BodyPose> bodies{};                // one pose a body
+  std::span<const std::vector<Vec3d>> bodyPoints{};  // Session::bodyPoints
+  std::span<const Vec3d> roots{};                    // of hairs on a scalp (FollowPlan::rootsAt); else none
+  std::span<const Vec3d> strandRoots{};              // likewise of strands
+};
+
 class HairPane {
  public:
   /// Of the groom's hair. Errors: the device lacks memory.
@@ -46,11 +54,9 @@ class HairPane {
   /// points.
   Status attach(gpu::Device& device, const Simulation& hair, std::span<const std::uint32_t> cutBeyond = {});
 
-  /// The next picture. Places of solids, one pose a body, and the camera are the world's, and so are roots:
-  /// of hairs on a scalp (FollowPlan::rootsAt), and of strands; else none.
+  /// The next picture. Places of solids, of what is about the hair, and the camera are the world's.
   Status setFrame(const Camera& camera, const HeadPose& head, std::span<const SolidPlace> solids,
-                  std::span<const BodyPose> bodies, std::span<const Vec3d> roots = {},
-                  std::span<const Vec3d> strandRoots = {});
+                  const HairSurroundings& about);
   void record(gpu::CommandList& list, Quatd head) const;
   /// Of what was recorded and is done: the box about the hair is known for the next picture.
   void finish();

@@ -51,10 +51,9 @@ Status PaneRow::attach(gpu::Device& device, const Session& session) {
 }
 
 Status PaneRow::setFrame(const Camera& camera, const HeadPose& head, std::span<const SolidPlace> solids,
-                         std::span<const BodyPose> bodies, std::span<const Vec3d> roots,
-                         std::span<const Vec3d> strandRoots) {
+                         const HairSurroundings& about) {
   for (auto& pane : panes_) {
-    if (Status set = pane->setFrame(camera, head, solids, bodies, roots, strandRoots); !set) return set;
+    if (Status set = pane->setFrame(camera, head, solids, about); !set) return set;
   }
   return {};
 }

@@ -29,8 +29,7 @@ class PaneRow {
   }
 
   Status setFrame(const Camera& camera, const HeadPose& head, std::span<const SolidPlace> solids,
-                  std::span<const BodyPose> bodies, std::span<const Vec3d> roots,
-                  std::span<const Vec3d> strandRoots);
+                  const HairSurroundings& about);
   void record(gpu::CommandList& list, Quatd head) const;
   void finish();  // when what was recorded is done
   std::vector<PlacedPicture> pictures() const;

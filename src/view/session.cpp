@@ -57,6 +57,7 @@ Status Session::preRoll() {
   const ScenePlaces now = frames_.front().placesAt(frame_);
   head_ = now.head;
   bodies_ = now.bodies;
+  bodyPoints_ = frames_.front().bodyPointsAt(frame_);
   roots_ = now.roots;
   return {};
 }
@@ -154,6 +155,7 @@ Status Session::submitFrame() {
     if (k > 0) continue;
     head_ = frame->heads.back();
     bodies_.assign(frame->bodiesAtEnd().begin(), frame->bodiesAtEnd().end());
+    bodyPoints_ = frames_.front().bodyPointsAt(frame_ + 1);
     roots_.assign(frame->rootsAtEnd().begin(), frame->rootsAtEnd().end());
   }
   ++frame_;

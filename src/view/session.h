@@ -45,7 +45,7 @@ class Session {
   const HeadPose& head() const { return head_; }
   const std::vector<BodyPose>& bodies() const { return bodies_; }
   /// Of bodies that bend, in the order of LoadedScene::moving, seen from what carries them [m].
-  std::vector<std::vector<Vec3d>> bodyPoints() const { return frames_.front().bodyPointsAt(frame_); }
+  const std::vector<std::vector<Vec3d>>& bodyPoints() const { return bodyPoints_; }
   /// Where a scalp has the strands' roots now, in the world [m]; none where the head carries them.
   std::vector<Vec3d> strandRoots() const;
   const LoadedScene& scene() const { return *scene_; }
@@ -71,6 +71,7 @@ class Session {
   int frame_ = 0;                    // that comes next; those of the pre-roll are before 0
   HeadPose head_;
   std::vector<BodyPose> bodies_;
+  std::vector<std::vector<Vec3d>> bodyPoints_;
   std::vector<BodyPose> roots_;  // seen from the head
 };
 

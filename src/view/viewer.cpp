@@ -132,7 +132,7 @@ std::vector<SolidPlace> Viewer::places() const {
   std::vector<SolidPlace> places;
   if (!shown_.bodies) return places;
   const HeadPose& head = session_->head();
-  const std::vector<std::vector<Vec3d>> points = session_->bodyPoints();
+  const std::vector<std::vector<Vec3d>>& points = session_->bodyPoints();
   for (std::size_t s = 0; s < plan_.solids.size(); ++s) {
     const ViewSolid& solid = plan_.solids[s];
     if (solid.body) {
@@ -253,10 +253,13 @@ Status Viewer::step() {
 Status Viewer::drawPanes() {
   std::vector<Vec3d> roots;  // of hairs on a scalp
   if (plan_.look.follow) roots = plan_.look.follow->rootsAt(session_->seconds(), session_->head());
-  if (Status set = panes_.setFrame(camera_->camera(), session_->head(), places(), session_->bodies(), roots,
-                                   session_->strandRoots());
-      !set)
-    return set;
+  const std::vector<Vec3d> strandRoots = session_->strandRoots();
+  const Status set = panes_.setFrame(camera_->camera(), session_->head(), places(),
+                                     {.bodies = session_->bodies(),
+                                      .bodyPoints = session_->bodyPoints(),
+                                      .roots = roots,
+                                      .strandRoots = strandRoots});
+  if (!set) return set;
   if (Status begun = recorder_->begin(); !begun) return begun;
   panes_.record(*recorder_, session_->head().rotation);
   return recorder_->submit();

@@ -94,6 +94,7 @@ Plan planOf(const Guides& guides, int hairCount, double blend = 0) {
 struct Met {
   std::vector<Body> bodies;
   std::vector<BodyPose> poses;
+  std::vector<std::vector<Vec3d>> points{};  // of those that bend, seen from what carries them
 };
 
 // Whether a hair's edge from point i on crosses a cut of its guide.
@@ -118,57 +119,68 @@ struct Following {
 };
 
 // The points that the device finds, in the order of hairs.
-std::vector<Vec3d> followOn(gpu::Device& device, const Plan& plan, const std::vector<Strand>& pose,
-                            Quatd head, const Following& following = {}) {
+std::vector<Vec3d> followIn(FollowStage& stage, gpu::Device& device, const Plan& plan,
+                            const std::vector<Strand>& pose, Quatd head, const Following& following) {
   const auto& [met, roots, cutBeyond, rootsLast] = following;
-  auto stage = FollowStage::create(device, plan.guides, plan.hairs, met.bodies, !roots.empty());
-  EXPECT_TRUE(stage) << stage.error().message;
-  stage->setBodies(met.poses);
+  stage.setBodies(met.poses, met.points);
   std::vector<Vec3d> positions;
   for (const Strand& strand : pose) positions.insert(positions.end(), strand.begin(), strand.end());
-  EXPECT_TRUE(stage->setPose(positions, rootsLast ? std::vector<Vec3d>(roots.size()) : roots, cutBeyond));
+  EXPECT_TRUE(stage.setPose(positions, rootsLast ? std::vector<Vec3d>(roots.size()) : roots, cutBeyond));
   std::vector<Vec3d> guideRoots;
   for (const Strand& strand : pose) guideRoots.push_back(strand.front());
   if (rootsLast) {
-    EXPECT_TRUE(stage->setRoots(roots, guideRoots));
+    EXPECT_TRUE(stage.setRoots(roots, guideRoots));
   }
   auto recorder = gpu::Recorder::create(device, "follow");
   EXPECT_TRUE(recorder->begin());
-  stage->record(*recorder, head);
+  stage.record(*recorder, head);
   EXPECT_TRUE(recorder->submitAndWait());
-  const auto records = downloadAll<layout::uvec4>(stage->points(), stage->pointCount());
+  const auto records = downloadAll<layout::uvec4>(stage.points(), stage.pointCount());
   std::vector<Vec3d> points;
   std::uint32_t hair = 0;
   for (std::size_t i = 0; i < records->size(); ++i) {
     const layout::uvec4& record = (*records)[i];
     points.push_back(
         {std::bit_cast<float>(record.x), std::bit_cast<float>(record.y), std::bit_cast<float>(record.z)});
-    const bool isEnd = i + 1 == stage->firstPoint()[hair + 1];
-    const bool isCut = isCutAfter(plan, cutBeyond, hair, i - stage->firstPoint()[hair]);
+    const bool isEnd = i + 1 == stage.firstPoint()[hair + 1];
+    const bool isCut = isCutAfter(plan, cutBeyond, hair, i - stage.firstPoint()[hair]);
     EXPECT_EQ(record.w, isEnd || isCut ? hair | layout::kHairEnd : hair) << i;
     hair += isEnd;
   }
   EXPECT_EQ(hair, plan.hairs.size());
   return points;
 }
+std::vector<Vec3d> followOn(gpu::Device& device, const Plan& plan, const std::vector<Strand>& pose,
+                            Quatd head, const Following& following = {}) {
+  auto stage =
+      FollowStage::create(device, plan.guides, plan.hairs, following.met.bodies, !following.roots.empty());
+  EXPECT_TRUE(stage) << stage.error().message;
+  return followIn(*stage, device, plan, pose, head, following);
+}
 
-double largestDifference(const Plan& plan, const std::vector<Strand>& pose, Quatd head,
-                         const std::vector<Vec3d>& found, const Met& met = {},
-                         const std::vector<Vec3d>& roots = {}) {
-  double largest = 0;
-  std::size_t at = 0;
+// From the reference, of each point.
+std::vector<double> differences(const Plan& plan, const std::vector<Strand>& pose, Quatd head,
+                                const std::vector<Vec3d>& found, const Met& met = {},
+                                const std::vector<Vec3d>& roots = {}) {
+  std::vector<double> all;
+  const std::vector<Body> bodies = reference::bodiesMetAt(met.bodies, met.points);
   std::vector<reference::GuidePose> guides;
   for (std::size_t g = 0; g < pose.size(); ++g)
     guides.push_back(reference::poseGuide(plan.guides[g], pose[g], head));
   for (std::size_t h = 0; h < plan.hairs.size(); ++h) {
     const auto root = roots.empty() ? std::nullopt : std::optional(roots[h]);
-    for (const Vec3d& expected :
-         reference::followGuides(plan.hairs[h], guides, met.bodies, met.poses, root)) {
-      const double difference = length(expected - found.at(at++));
-      if (!(difference <= largest)) largest = difference;  // NaN too
-    }
+    for (const Vec3d& expected : reference::followGuides(plan.hairs[h], guides, bodies, met.poses, root))
+      all.push_back(length(expected - found.at(all.size())));
   }
-  EXPECT_EQ(at, found.size());
+  EXPECT_EQ(all.size(), found.size());
+  return all;
+}
+double largestDifference(const Plan& plan, const std::vector<Strand>& pose, Quatd head,
+                         const std::vector<Vec3d>& found, const Met& met = {},
+                         const std::vector<Vec3d>& roots = {}) {
+  double largest = 0;
+  for (const double difference : differences(plan, pose, head, found, met, roots))
+    if (!(difference <= largest)) largest = difference;  // NaN too
   return largest;
 }
 
@@ -333,6 +345,58 @@ TEST_F(FollowStageTest, AmongBodiesItIsTheReference) {
   }
 }
 
+// The points of those of `bodies` that bend, each swollen along a direction of its own, by a share of
+// `swell`.
+std::vector<std::vector<Vec3d>> swollen(const std::vector<Body>& bodies, double swell) {
+  std::vector<std::vector<Vec3d>> all;
+  for (const Body& body : bodies) {
+    if (!body.bends()) continue;
+    std::vector<Vec3d>& points = all.emplace_back(body.mesh->points);
+    const Vec3d way{1, 0.5, -0.3 * static_cast<double>(all.size())}, along = way / length(way);
+    for (Vec3d& p : points) p += along * (swell * dot(p, along));
+  }
+  return all;
+}
+
+// One stage, pose after pose. Among the bodies are one that does not bend and cloth, which hairs do not see.
+TEST_F(FollowStageTest, BodiesThatBendAreMetWhereTheirPointsAre) {
+  const Guides guides = allGuides().front();
+  std::vector<Strand> pose;
+  for (const Strand& strand : guides.strands) pose.push_back(posed(strand));
+  const auto few = gpu::Device::open("", {.mostTexelRecords = 16});
+  ASSERT_TRUE(few) << few.error().message;
+  const Body ball = parity::bendingBall(0.1, 0.006);
+  const Plan plan = planOf(guides, 300, 0.8);
+  for (const std::vector<Body>& bodies :
+       {std::vector{ball},
+        {parity::gridBall(0.1, 0.005), ball, parity::sheet(0.3), parity::bendingBall(0.08, 0.007)}}) {
+    SCOPED_TRACE(bodies.size());
+    Met met = metBy(bodies, pose);
+    auto stage = FollowStage::create(gpu(), plan.guides, plan.hairs, bodies);
+    auto other = FollowStage::create(**few, plan.guides, plan.hairs, bodies);
+    ASSERT_TRUE(stage && other);
+    std::vector<Vec3d> before;
+    for (const double swell : {0.0, 0.4, 0.4, -0.3}) {
+      SCOPED_TRACE(swell);
+      met.points = swollen(bodies, swell);
+      const auto found = followIn(*stage, gpu(), plan, pose, kTurned, {.met = met});
+      const auto from = differences(plan, pose, kTurned, found, met);
+      // A distance that is just between two halves is rounded to one or the other, and turns the way out.
+      EXPECT_LT(std::ranges::count_if(from, [](double d) { return !(d < parity::kFollowMetres); }),
+                std::ssize(from) / 100);
+      EXPECT_LT(std::ranges::max(from), parity::kFollowMetres + 0x1p-10 * (ball.mesh->cell + 0.1));
+      EXPECT_EQ(followIn(*other, **few, plan, pose, kTurned, {.met = met}), found) << "storage for texels";
+      before = found;
+    }
+    // Without points they stay as they were.
+    Met still = met;
+    still.points.clear();
+    EXPECT_EQ(followIn(*stage, gpu(), plan, pose, kTurned, {.met = still}), before);
+    EXPECT_GT(countOther(before, followOn(gpu(), plan, pose, kTurned, {.met = still})), before.size() / 100)
+        << "the body must press on hair otherwise when it is swollen";
+  }
+}
+
 // A scalp that bends takes each root its own way, here by up to a centimetre.
 TEST_F(FollowStageTest, RootsOnAScalpAreWhereItHasThem) {
   const Guides guides = allGuides().front();
@@ -365,7 +429,7 @@ TEST_F(FollowStageTest, RootsOnAScalpAreWhereItHasThem) {
   }
 }
 
-// What is sieved by the sphere about a body goes with the body's turn, where its middle is not its origin.
+// A body's grid goes with its turn, where its middle is not its origin.
 TEST_F(FollowStageTest, BodiesFarFromTheirOriginTurn) {
   const Guides guides = allGuides().front();
   std::vector<Strand> pose;
@@ -390,7 +454,7 @@ const InputException kUnset[] = {
     {"BodyPose.moves", "hairs that follow see a body where it is, not how it moves"},
     {"BodyPose.turn", "likewise"},
     {"BodyPose.velocity", "likewise"},
-    {"BodyPose.field", "hairs that follow do not see bodies that bend"},
+    {"BodyPose.field", "a body that bends has one field, of the pose"},
     {"BodyRest.firstKey", "likewise"},
     {"BodyRest.triangleBits", "likewise"},
     {"BodyRest.firstWay", "likewise"},
@@ -474,7 +538,7 @@ TEST_F(FollowStageTest, BodiesAreSeenFromTheOrigin) {
   std::vector<Vec3d> positions;
   for (const Strand& strand : guides.strands) positions.insert(positions.end(), strand.begin(), strand.end());
   ASSERT_TRUE(stage->setPose(positions));
-  stage->setBodies(std::span(&there, 1), origin);
+  stage->setBodies(std::span(&there, 1), {}, origin);
   auto recorder = gpu::Recorder::create(gpu(), "follow");
   ASSERT_TRUE(recorder->begin());
   stage->record(*recorder, Quatd{});

@@ -449,7 +449,7 @@ TEST_F(SessionTest, HairsOnAScalpStandWhereItHasTheirRoots) {
   const Vec3d middle = (strandRoots[0] + strandRoots[1] + strandRoots[2]) / 3;
   const Camera camera{.eye = middle + Vec3d{0, 0, 4}, .target = middle};
   const std::vector<Vec3d> roots = look.follow->rootsAt(session.seconds(), session.head());
-  ASSERT_TRUE(pane->setFrame(camera, session.head(), {}, {}, roots, strandRoots));
+  ASSERT_TRUE(pane->setFrame(camera, session.head(), {}, {.roots = roots, .strandRoots = strandRoots}));
   auto recorder = gpu::Recorder::create(gpu(), "pane");
   ASSERT_TRUE(recorder->begin());
   pane->record(*recorder, session.head().rotation);

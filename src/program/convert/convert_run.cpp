@@ -35,11 +35,9 @@ Status forEachFrame(AnimationReader& source, const ConvertPlan& plan,
     if (plan.hair) {
       Status checked = frame == plan.firstFrame ? plan.hair->checkPose(source.groom()) : Status();
       if (!checked) return checked;
-      const Status moved = plan.scene
-                               ? plan.hair->follow({source.groom().points, bodiesAtFrame(*plan.scene, frame),
-                                                    hairRootsAtFrame(*plan.scene, *plan.hair, frame)})
-                               : plan.hair->follow({source.groom().points});
-      if (!moved) return moved;
+      const FollowScene about =
+          plan.scene ? followSceneAtFrame(*plan.scene, *plan.hair, frame) : FollowScene{};
+      if (Status moved = plan.hair->follow(about.pose(source.groom().points)); !moved) return moved;
     }
     if (Status visited = visit(frame); !visited) return visited;
   }

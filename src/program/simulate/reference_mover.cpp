@@ -11,7 +11,6 @@
 
 #include "reference/follow_guide.h"
 #include "ringlet/base/in_parallel.h"
-#include "ringlet/follow/posed_bodies.h"
 #include "ringlet/pictures/follow_plan.h"
 
 namespace ringlet::program {
@@ -21,7 +20,7 @@ class ReferenceMover : public FollowMover {
  public:
   ReferenceMover(const FollowPlan& plan, std::span<const Body> bodies)
       : plan_(plan),
-        bodies_(metByFollowers(bodies)),
+        bodies_(bodies.begin(), bodies.end()),
         firstHair_(plan.guides().size() + 1),
         isBlended_(std::ranges::any_of(plan.hairs(), [](const FollowHair& hair) {
           return hair.others[0].share > 0 || hair.others[1].share > 0;
@@ -32,7 +31,8 @@ class ReferenceMover : public FollowMover {
 
   Status move(const StrandsPose& pose, std::span<Vec3f> hairs) override {
     const Quatd head = plan_.headOf(pose.points);
-    const std::span<const Body> met = pose.bodies.empty() ? std::span<const Body>() : bodies_;
+    const std::vector<Body> met =
+        pose.bodies.empty() ? std::vector<Body>() : reference::bodiesMetAt(bodies_, pose.bodyPoints);
     std::vector<reference::GuidePose> poses(plan_.guides().size());
     const auto poseGuide = [&](std::size_t s) {
       poses[s] = reference::poseGuide(plan_.guides()[s], plan_.strandOf(pose.points, s), head);

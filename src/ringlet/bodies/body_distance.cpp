@@ -13,7 +13,7 @@ double distanceTo(const Body& body, Vec3d place) {
 }
 
 double distanceTo(const Body& body, const BodyPose& pose, Vec3d place) {
-  return distanceTo(body, rotate(pose.rotation.conjugate(), place - pose.position));
+  return distanceTo(body, seenFrom(pose, place));
 }
 
 }  // namespace ringlet

@@ -151,17 +151,17 @@ Status FollowStage::makeHairs(gpu::Device& device, std::span<const GuideRest> gu
   return {};
 }
 
-Status FollowStage::makeNear(gpu::Device& device) {
+Status FollowStage::makeInside(gpu::Device& device) {
   if (bodies_.count() == 0) return {};
-  const layout::NearCount nothing{.indirect = {0, 1, 1}, .points = 0};
-  auto none = createFilled(device, std::span(&nothing, 1), "no points near bodies");
+  const layout::InsideCount nothing{.indirect = {0, 1, 1}, .points = 0};
+  auto none = createFilled(device, std::span(&nothing, 1), "no points inside bodies");
   if (!none) return none.error();
-  auto count = createZero(device, sizeof(nothing), "number of points near bodies");
+  auto count = createZero(device, sizeof(nothing), "number of points inside bodies");
   if (!count) return count.error();
   auto points = gpu::Buffer::create(device, std::uint64_t{pointCount_} * sizeof(std::uint32_t),
-                                    gpu::BufferKind::storage, "points near bodies");
+                                    gpu::BufferKind::storage, "points inside bodies");
   if (!points) return points.error();
-  near_.emplace(Near{std::move(*count), std::move(*none), std::move(*points)});
+  inside_.emplace(Inside{std::move(*count), std::move(*none), std::move(*points)});
   return {};
 }
 
@@ -175,9 +175,9 @@ Status FollowStage::makeKernels(gpu::Device& device, bool isOnScalp, bool areCut
   bind(layout::kBindHairPoints, points_);
   for (std::size_t i = 0; i < others_.size(); ++i) bind(kOthers[i], others_[i]);
   if (blends_) bind(layout::kBindFollowBlends, *blends_);
-  if (near_) {
-    bind(layout::kBindNearCount, near_->count);
-    bind(layout::kBindNearPoints, near_->points);
+  if (inside_) {
+    bind(layout::kBindInsideCount, inside_->count);
+    bind(layout::kBindInsidePoints, inside_->points);
   }
   const bool texels = std::ranges::all_of(
       table, [&](const auto& entry) { return isSeenAsTexels(device, entry.second.get().bytes()); });
@@ -243,7 +243,7 @@ Result<FollowStage> FollowStage::create(gpu::Device& device, std::span<const Gui
   }
   const bool areCut =
       std::ranges::any_of(guides, [](const GuideRest& guide) { return !guide.pieces.empty(); });
-  if (Status made = self.makeNear(device); !made) return made.error();
+  if (Status made = self.makeInside(device); !made) return made.error();
   if (Status made = self.makeKernels(device, isOnScalp, areCut); !made) return made.error();
   return self;
 }
@@ -270,13 +270,14 @@ Status FollowStage::setRoots(std::span<const Vec3d> roots, std::span<const Vec3d
   return others_.back().upload(std::as_bytes(std::span(hairs)));
 }
 
-void FollowStage::record(gpu::CommandList& list, Quatd head) const {
+void FollowStage::record(gpu::CommandList& list, Quatd head) {
+  bodies_.record(list);
   layout::FollowParameters parameters{.head = packed(head),
                                       .count = 0,
                                       .stride = stride_,
                                       .particles = particleCount_,
                                       .bodyCount = bodies_.count()};
-  if (near_) list.copyBuffer(near_->none, near_->count, sizeof(layout::NearCount));
+  if (inside_) list.copyBuffer(inside_->none, inside_->count, sizeof(layout::InsideCount));
   const std::uint32_t counts[] = {particleCount_, guideCount_, hairCount_};
   const std::uint32_t invocations[] = {particleCount_, guideCount_, hairCount_ * stride_};
   for (std::size_t k = 0; k < std::size(counts); ++k) {
@@ -284,8 +285,8 @@ void FollowStage::record(gpu::CommandList& list, Quatd head) const {
     kernels_[k].dispatch(list, parameters, invocations[k]);
     list.barrier();
   }
-  if (!near_) return;
-  kernels_.back().dispatchIndirect(list, parameters, near_->count, offsetof(layout::NearCount, indirect));
+  if (!inside_) return;
+  kernels_.back().dispatchIndirect(list, parameters, inside_->count, offsetof(layout::InsideCount, indirect));
   list.barrier();
 }
 
@@ -293,7 +294,7 @@ std::uint64_t FollowStage::byteCount() const {
   std::uint64_t bytes = positions_.bytes() + points_.bytes() + bodies_.byteCount();
   for (const gpu::Buffer& buffer : others_) bytes += buffer.bytes();
   if (blends_) bytes += blends_->bytes();
-  if (near_) bytes += near_->count.bytes() + near_->none.bytes() + near_->points.bytes();
+  if (inside_) bytes += inside_->count.bytes() + inside_->none.bytes() + inside_->points.bytes();
   return bytes;
 }
 

@@ -40,12 +40,15 @@ class FollowStage {
   /// vec4[particles]: the pose on the device, for what writes it there (DevicePose).
   const gpu::Buffer& pose() const { return positions_; }
 
-  /// Where bodies are in the next frame, one pose a body; `origin` is where the guides' particles are seen
-  /// from. No submission may be using them meanwhile.
-  void setBodies(std::span<const BodyPose> poses, Vec3d origin = {}) { bodies_.setPoses(poses, origin); }
+  /// Where bodies are in the next frame, as PosedBodies::setPoses takes them; `origin` is where the guides'
+  /// particles are seen from.
+  void setBodies(std::span<const BodyPose> poses, std::span<const std::vector<Vec3d>> points = {},
+                 Vec3d origin = {}) {
+    bodies_.setPoses(poses, origin, points);
+  }
 
   /// Moves the hairs to the pose. `head`: how the head has turned since the rest pose. Ends with a barrier.
-  void record(gpu::CommandList& list, Quatd head) const;
+  void record(gpu::CommandList& list, Quatd head);
 
   /// uvec4[pointCount()]: x, y, z as the bits of floats [m]; the hair's number, with kHairEnd
   /// (layout/hair_points.h) at its last point and before a cut.
@@ -61,17 +64,17 @@ class FollowStage {
       : positions_(std::move(positions)), points_(std::move(points)), bodies_(std::move(bodies)) {}
   Status makeHairs(gpu::Device& device, std::span<const GuideRest> guides, std::span<const FollowHair> hairs);
   Status makeGuides(gpu::Device& device, std::span<const GuideRest> guides);
-  Status makeNear(gpu::Device& device);
+  Status makeInside(gpu::Device& device);
   Status makeKernels(gpu::Device& device, bool isOnScalp, bool areCut);
 
-  // Points of hairs near bodies: how many there are, none, and which.
-  struct Near {
+  // Points of hairs inside bodies: how many there are, none, and which.
+  struct Inside {
     gpu::Buffer count, none, points;
   };
 
   gpu::Buffer positions_, points_;
   PosedBodies bodies_;
-  std::optional<Near> near_;  // where there are bodies
+  std::optional<Inside> inside_;  // where there are bodies
   std::vector<gpu::Buffer> others_;
   std::optional<gpu::Buffer> blends_;      // where hairs follow several guides
   std::vector<gpu::BoundKernel> kernels_;  // in their order; that of bodies only where there are any

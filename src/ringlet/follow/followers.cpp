@@ -18,16 +18,35 @@
 #include "ringlet/gpu/recorder.h"
 
 namespace ringlet {
+namespace {
+
+std::vector<std::size_t> whichBend(std::span<const Body> bodies) {
+  std::vector<std::size_t> which;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (bodies[b].bends()) which.push_back(b);
+  return which;
+}
+
+}  // namespace
 
 struct Followers::Implementation {
   ComputeDevice device;
+  std::vector<std::size_t> bending;  // which of the bodies bend
   const Simulation* guides;
   FollowStage stage;
   std::optional<DevicePose> pose;
   gpu::Recorder recorder;
 
-  void record(gpu::CommandList& list, const HeadPose& head, std::span<const BodyPose> bodies) {
-    stage.setBodies(bodies, head.position);
+  std::vector<std::vector<Vec3d>> seenFromCarriers(std::span<const BodyPose> poses, BodyPoints points) const {
+    RINGLET_ASSERT(points.empty() || points.size() == bending.size(), "every body that bends has points");
+    std::vector<std::vector<Vec3d>> seen(points.size());
+    for (std::size_t m = 0; m < points.size(); ++m)
+      for (const Vec3d p : points[m]) seen[m].push_back(seenFrom(poses[bending[m]], p));
+    return seen;
+  }
+  void record(gpu::CommandList& list, const HeadPose& head, std::span<const BodyPose> bodies,
+              BodyPoints points) {
+    stage.setBodies(bodies, seenFromCarriers(bodies, points), head.position);
     pose->record(list, head.rotation);
     stage.record(list, head.rotation);
   }
@@ -59,8 +78,8 @@ Result<Followers> Followers::create(const ComputeDevice& device, const Simulatio
   if (!stage) return stage.error();
   auto recorder = gpu::Recorder::create(device.gpu(), "hairs that follow strands");
   if (!recorder) return recorder.error();
-  auto self = std::make_unique<Implementation>(
-      Implementation{device, &guides, std::move(*stage), std::nullopt, std::move(*recorder)});
+  auto self = std::make_unique<Implementation>(Implementation{
+      device, whichBend(bodies), &guides, std::move(*stage), std::nullopt, std::move(*recorder)});
   const std::vector<DevicePositions> parts = guides.devicePositions();
   std::vector<PoseSource> sources;
   for (const DevicePositions& part : parts) sources.push_back({*part.own, part.particles});
@@ -71,16 +90,17 @@ Result<Followers> Followers::create(const ComputeDevice& device, const Simulatio
   return Followers(std::move(self));
 }
 
-Status Followers::follow(std::span<const BodyPose> bodies) {
+Status Followers::follow(std::span<const BodyPose> bodies, BodyPoints points) {
   const HeadPose head = self_->guides->head();
   if (Status begun = self_->recorder.begin(); !begun) return begun;
-  self_->record(self_->recorder, head, bodies);
+  self_->record(self_->recorder, head, bodies, points);
   return self_->recorder.submitAndWait();
 }
 
-void Followers::record(void* commandBuffer, const HeadPose& head, std::span<const BodyPose> bodies) {
+void Followers::record(void* commandBuffer, const HeadPose& head, std::span<const BodyPose> bodies,
+                       BodyPoints points) {
   gpu::CommandList list;
-  self_->record(list, head, bodies);
+  self_->record(list, head, bodies, points);
   list.recordInto(self_->device.gpu(), static_cast<VkCommandBuffer>(commandBuffer));
 }
 

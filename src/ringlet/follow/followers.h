@@ -44,13 +44,15 @@ class Followers {
   Followers& operator=(Followers&&) noexcept;
   ~Followers();
 
-  /// Moves the hairs to where the strands are after the last frame, and waits. `bodies`: one pose a body.
-  Status follow(std::span<const BodyPose> bodies = {});
+  /// Moves the hairs to where the strands are after the last frame, and waits. `bodies`: one pose a body;
+  /// `points`: of those that bend, at one time; none: they keep their shape.
+  Status follow(std::span<const BodyPose> bodies = {}, BodyPoints points = {});
 
   /// Records the same into `commandBuffer`, a VkCommandBuffer outside a render pass, behind what recordFrames
   /// recorded of the same frame; `head`: the head's pose at its end. The commands begin and end with a
   /// barrier between compute and copies. The host submits it once, and records again when it is done.
-  void record(void* commandBuffer, const HeadPose& head, std::span<const BodyPose> bodies = {});
+  void record(void* commandBuffer, const HeadPose& head, std::span<const BodyPose> bodies = {},
+              BodyPoints points = {});
 
   FollowedPoints points() const;
   /// Where each hair's points begin in points(), and one more entry.

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -9,44 +11,48 @@
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/gpu/buffer.h"
+#include "ringlet/gpu/command_list.h"
 #include "ringlet/gpu/device.h"
 #include "ringlet/gpu/kernel.h"
 #include "ringlet/scene/body.h"
 
 namespace ringlet {
 
-/// Bodies as hairs that follow meet them: they do not see those that bend, for each of which a grain stands.
+/// Bodies as hairs that follow meet them: they do not see cloth, for each of which a grain stands.
 std::vector<Body> metByFollowers(std::span<const Body> bodies);
+/// Of points of each body that bends, those of bodies that they meet.
+std::vector<std::vector<Vec3d>> metByFollowers(std::span<const Body> bodies,
+                                               std::span<const std::vector<Vec3d>> points);
 
 class PosedBodies {
  public:
   /// The bodies pass checkBody. Errors: the device lacks memory.
   static Result<PosedBodies> create(gpu::Device& device, std::span<const Body> bodies);
-  PosedBodies(PosedBodies&&) = default;
+  PosedBodies(PosedBodies&&) noexcept;
+  ~PosedBodies();
 
-  std::uint32_t count() const { return count_; }
-  /// One pose a body, whose positions are seen from `origin`. No submission may be using them meanwhile.
-  void setPoses(std::span<const BodyPose> poses, Vec3d origin);
-  /// As kernels bind them (layout/bodies.h, and layout/follow.h for the spheres about them).
+  std::uint32_t count() const { return static_cast<std::uint32_t>(bodies_.size()); }
+  /// One pose a body, whose positions are seen from `origin`; `points`: of each that bends, seen from what
+  /// carries it [m], or none: as before. No submission may be using them meanwhile.
+  void setPoses(std::span<const BodyPose> poses, Vec3d origin,
+                std::span<const std::vector<Vec3d>> points = {});
+  /// Makes the grids of those that bend, if their points are others than in the last commands. Ends with a
+  /// barrier where it does.
+  void record(gpu::CommandList& list);
+  /// As kernels bind them (layout/bodies.h).
   gpu::BufferTable bufferTable() const;
-  std::uint64_t byteCount() const {
-    return rests_.bytes() + pairs_.bytes() + poses_.bytes() + spheres_.bytes();
-  }
+  std::uint64_t byteCount() const;
 
  private:
-  PosedBodies(gpu::Buffer rests, gpu::Buffer pairs, gpu::Buffer poses, gpu::Buffer spheres)
-      : rests_(std::move(rests)),
-        pairs_(std::move(pairs)),
-        poses_(std::move(poses)),
-        spheres_(std::move(spheres)) {}
+  struct Bending;  // bodies that bend, and their points
+  PosedBodies(std::span<const Body> bodies, gpu::Buffer poses);
+  Status makeGrids(gpu::Device& device, std::span<const Body> met);
 
-  gpu::Buffer rests_, pairs_, poses_, spheres_;
-  struct Sphere {
-    Vec3d middle;   // [m]
-    double radius;  // [m]
-  };
-  std::vector<Sphere> about_;  // each, in its own axes
-  std::uint32_t count_ = 0;
+  std::vector<Body> bodies_;
+  std::unique_ptr<Bending> bending_;  // where there are any
+  gpu::Buffer poses_;
+  std::optional<gpu::Buffer> rests_;
+  std::unique_ptr<gpu::Buffer> pairs_;  // where it stays: bending_ writes into it
 };
 
 }  // namespace ringlet

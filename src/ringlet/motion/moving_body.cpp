@@ -18,7 +18,7 @@ std::vector<Vec3d> MovingBody::pointsAt(double t, const Motion& head) const {
 std::vector<Vec3d> MovingBody::pointsSeenAt(double t, const Body& of, const Motion& head) const {
   const BodyPose carrier = of.poseAt(t, head.poseAt(t));
   std::vector<Vec3d> points = pointsAt(t, head);
-  for (Vec3d& p : points) p = rotate(carrier.rotation.conjugate(), p - carrier.position);
+  for (Vec3d& p : points) p = seenFrom(carrier, p);
   return points;
 }
 

@@ -24,7 +24,7 @@ class DeviceMover : public FollowMover {
     metres.reserve(pose.points.size());
     for (const Vec3f& p : pose.points) metres.push_back(Vec3d(p) * plan_.metresPerUnit());
     if (Status set = stage_.setPose(metres, pose.roots); !set) return set;
-    stage_.setBodies(pose.bodies);
+    stage_.setBodies(pose.bodies, pose.bodyPoints);
     if (Status begun = recorder_.begin(); !begun) return begun;
     stage_.record(recorder_, plan_.headOf(pose.points));
     if (Status done = recorder_.submitAndWait(); !done) return done;

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
@@ -15,10 +16,12 @@ namespace ringlet {
 class FollowPlan;
 
 /// A pose of the strands, in their groom's unit and order; with one pose per body, or none, in which case
-/// bodies are left out; and with FollowPlan::rootsAt.
+/// bodies are left out; with SceneFrames::bodyPointsAt, or none: bodies keep their shape; and with
+/// FollowPlan::rootsAt.
 struct StrandsPose {
   std::span<const Vec3f> points;
   std::span<const BodyPose> bodies{};
+  std::span<const std::vector<Vec3d>> bodyPoints{};
   std::span<const Vec3d> roots{};
 };
 

@@ -20,7 +20,8 @@ Result<FullHair> FullHair::make(const Groom& rest, double metresPerUnit, const F
   hair.groom_.metresPerUnit = rest.metresPerUnit;
   hair.groom_.firstPoint = hair.plan_->firstPoint();
   hair.groom_.points.resize(hair.groom_.firstPoint.back());
-  if (Status moved = hair.follow({rest.points, {}, hair.plan_->restRoots()}); !moved) return moved.error();
+  if (Status moved = hair.follow({.points = rest.points, .roots = hair.plan_->restRoots()}); !moved)
+    return moved.error();
   return hair;
 }
 

@@ -60,22 +60,21 @@ Result<PictureHair> PictureHair::create(const ComputeDevice& device, const Groom
   return self;
 }
 
-Status PictureHair::setPose(std::span<const Vec3f> points, std::span<const BodyPose> bodies,
-                            std::span<const Vec3d> roots, int frame) {
+Status PictureHair::setPose(const StrandsPose& pose, int frame) {
   const std::vector<std::uint32_t> cutBeyond = cuts_.cutBeyond(frame, firstOfStrand_);
-  if (lines_) return lines_->setPose(points, metresPerUnit_, cutBeyond);
+  if (lines_) return lines_->setPose(pose.points, metresPerUnit_, cutBeyond);
   std::vector<Vec3d> metres;
-  metres.reserve(points.size());
-  for (const Vec3f& p : points) metres.push_back(Vec3d(p) * metresPerUnit_);
-  hairs_->setBodies(bodies);
-  return hairs_->setPose(metres, roots, cutBeyond);
+  metres.reserve(pose.points.size());
+  for (const Vec3f& p : pose.points) metres.push_back(Vec3d(p) * metresPerUnit_);
+  hairs_->setBodies(pose.bodies, pose.bodyPoints);
+  return hairs_->setPose(metres, pose.roots, cutBeyond);
 }
 
 Quatd PictureHair::headOf(std::span<const Vec3f> points) const {
   return plan_ ? plan_->headOf(points) : fitHeadRotation(restRoots_, rootsOf(points));
 }
 
-void PictureHair::record(gpu::CommandList& list, Quatd head) const {
+void PictureHair::record(gpu::CommandList& list, Quatd head) {
   if (!hairs_) return;
   list.beginStage("follow");
   hairs_->record(list, head);

@@ -12,6 +12,7 @@
 #include "ringlet/follow/follow_stage.h"
 #include "ringlet/gpu/command_list.h"
 #include "ringlet/groom/groom.h"
+#include "ringlet/pictures/follow_mover.h"
 #include "ringlet/pictures/follow_plan.h"
 #include "ringlet/pictures/hair_look.h"
 #include "ringlet/render/strand_points.h"
@@ -41,10 +42,8 @@ class PictureHair {
                                     double metresPerUnit, const PictureHairChoice& choice,
                                     const PictureHairScene& scene = {});
 
-  /// Sets the next pose: the strands' points in their unit, one pose per body, and rootsAt; cuts of strands
-  /// up to `frame` are applied. The device must be idle.
-  Status setPose(std::span<const Vec3f> points, std::span<const BodyPose> bodies = {},
-                 std::span<const Vec3d> roots = {}, int frame = 1);
+  /// Sets the next pose; cuts of strands up to `frame` are applied. The device must be idle.
+  Status setPose(const StrandsPose& pose, int frame = 1);
   /// As FollowPlan::rootsAt.
   std::vector<Vec3d> rootsAt(double t, const HeadPose& head) const {
     return plan_ ? plan_->rootsAt(t, head) : std::vector<Vec3d>();
@@ -52,7 +51,7 @@ class PictureHair {
   /// The rotation of the head relative to the rest pose.
   Quatd headOf(std::span<const Vec3f> points) const;
   /// Records moving the following hairs to the pose; the stage is called "follow".
-  void record(gpu::CommandList& list, Quatd head) const;
+  void record(gpu::CommandList& list, Quatd head);
 
   const gpu::Buffer& points() const { return hairs_ ? hairs_->points() : lines_->points(); }
   const std::vector<std::uint32_t>& firstPoint() const {

@@ -174,9 +174,8 @@ Status Rendering::drawMoment(int frame, double share, const Points& before, cons
     for (std::size_t i = 0; i < pose.size(); ++i)
       pose[i] = before[i] + (points[i] - before[i]) * static_cast<float>(share);
   const double at = frame - 1 + share;
-  const auto bodies = plan_.scene ? bodiesAtFrame(*plan_.scene, at) : std::vector<BodyPose>();
-  const auto roots = plan_.scene ? hairRootsAtFrame(*plan_.scene, *hair_, at) : std::vector<Vec3d>();
-  if (Status set = hair_->setPose(pose, bodies, roots, frame); !set) return set;
+  const FollowScene about = plan_.scene ? followSceneAtFrame(*plan_.scene, *hair_, at) : FollowScene{};
+  if (Status set = hair_->setPose(about.pose(pose), frame); !set) return set;
   const Quatd head = hair_->headOf(pose);
   const Bounds here = boxOf(pose);
   const int span = plan_.lastFrame - plan_.firstFrame;

@@ -91,7 +91,8 @@ Status RunWriters::addFrame(int frame, std::vector<Vec3f> points, const HeadPose
   if (hairs_ && !animations_.empty()) {
     const double seconds = frames_.secondsAt(frame);
     const std::vector<Vec3d> roots = hairs_->rootsAt(seconds, scene_.motion.poseAt(seconds));
-    if (Status moved = hairs_->follow({lastPoints_, bodies, roots}); !moved) return moved;
+    const auto bodyPoints = frames_.bodyPointsAt(frame);
+    if (Status moved = hairs_->follow({lastPoints_, bodies, bodyPoints, roots}); !moved) return moved;
   }
   const std::vector<Vec3f>& shown = hairs_ ? hairs_->groom().points : lastPoints_;
   for (const auto& animation : animations_) {

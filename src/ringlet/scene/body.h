@@ -42,6 +42,11 @@ inline BodyPose interpolate(const BodyPose& a, const BodyPose& b, double s) {
   return {a.position + (b.position - a.position) * s, slerp(a.rotation, b.rotation, s)};
 }
 
+/// A place in the world, seen from what is at `pose`.
+inline Vec3d seenFrom(const BodyPose& pose, Vec3d place) {
+  return rotate(pose.rotation.conjugate(), place - pose.position);
+}
+
 struct Body {
   std::string name{};  // for messages
   BodyShape shape = BodyShape::sphere;

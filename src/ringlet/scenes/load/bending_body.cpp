@@ -38,7 +38,7 @@ Bounds reachOfHair(const Groom& groom, const HeadPose& head, const BodyPose& car
   Bounds bounds = Bounds::none();
   for (const Vec3d root : rootPlaces(groom)) {
     const Vec3d place = head.position + rotate(head.rotation, root);
-    bounds.add(rotate(carrier.rotation.conjugate(), place - carrier.position));
+    bounds.add(seenFrom(carrier, place));
   }
   const Vec3d room = Vec3d{1, 1, 1} * longestStrand(groom);
   return {bounds.low - room, bounds.high + room};

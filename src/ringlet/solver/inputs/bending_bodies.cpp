@@ -94,7 +94,7 @@ std::vector<BendingBodies::Surfaces> BendingBodies::samplesOf(const FrameContext
                                       double(s + 1) / double(count));
       std::vector<Vec3d> points;
       for (const Vec3d p : frame.bodyPoints[m].subspan(s * pointCount, pointCount))
-        points.push_back(rotate(carrier.rotation.conjugate(), p - carrier.position));
+        points.push_back(seenFrom(carrier, p));
       samples[s].push_back(mesh.shape->surface.pointsOf(points));
     }
   }
@@ -163,6 +163,24 @@ BendingBodies::Work BendingBodies::writeFrame(const FrameContext& frame, std::sp
   current_ = builds;
   isStale_ = false;
   return work;
+}
+
+BendingBodies::Work BendingBodies::writeMoment(std::span<const std::vector<Vec3d>> points,
+                                               std::span<layout::vec4> out) {
+  RINGLET_ASSERT(points.empty() || points.size() == bodies_.size(), "every body that bends has points");
+  for (std::size_t m = 0; m < points.size(); ++m) {
+    Mesh& mesh = bodies_[m];
+    RINGLET_ASSERT(points[m].size() == mesh.shape->points.size(), "a place for every point of its mesh");
+    std::vector<Vec3d> surface = mesh.shape->surface.pointsOf(points[m]);
+    isStale_ = isStale_ || surface != mesh.now;
+    mesh.now = std::move(surface);
+  }
+  if (!isStale_) return {};
+  isStale_ = false;
+  std::size_t k = 0;
+  for (const Mesh& mesh : bodies_)
+    for (const Vec3d& p : mesh.now) out[k++] = packed(p);
+  return {.moved = 0, .first = 0, .last = 0};
 }
 
 void BendingBodies::jump(const FrameContext& frame, std::span<const BodyPose> start) {

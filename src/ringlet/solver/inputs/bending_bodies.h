@@ -1,7 +1,7 @@
 // BendingBodies: the points of bodies that bend, frame by frame, and the fields that kernels make of them
-// (mesh_fields.h). A frame has a field for each of several times, at ends of steps: as many as keep each
-// point's way from one to the next within about a cell. Between them the surface is carried
-// (bending_buffers.glsl).
+// (mesh_fields.h), for what moves hair and for hairs that follow. A frame has a field for each of several
+// times, at ends of steps: as many as keep each point's way from one to the next within about a cell. Between
+// them the surface is carried (bending_buffers.glsl).
 //
 //   step      0     1     2     3     4     5     6
 //   field     0 .......... 1 .......... 2 .......... 3      three builds of a frame of six steps
@@ -48,6 +48,9 @@ class BendingBodies {
   /// frame's copies; `fields`: BodyPose::field at each of these times.
   Work writeFrame(const FrameContext& frame, std::span<const BodyPose> start, std::span<layout::vec4> points,
                   std::span<float> fields);
+  /// At a moment, where one copy is enough: writes the points of copy 0. points: of each mesh, seen from what
+  /// carries it; none: those of before.
+  Work writeMoment(std::span<const std::vector<Vec3d>> points, std::span<layout::vec4> out);
   void jump(const FrameContext& frame, std::span<const BodyPose> start);
   bool isQuiet(const FrameContext& frame) const;
   void archive(Archive& archive);
