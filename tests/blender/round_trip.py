@@ -205,7 +205,7 @@ def check_head_that_bends():
     with open(os.path.join(folder, "scene.toml"), encoding="utf-8") as file:
         text = file.read()
     with open(os.path.join(folder, "own.toml"), "w", encoding="utf-8") as file:
-        file.write(text.replace("scalp.obj", "own.obj").replace("scalp.pc2", "own.mdd"))
+        file.write(text.replace("head.obj", "own.obj").replace("head.pc2", "own.mdd"))
     done = subprocess.run([PROGRAM, "simulate", "own.toml", "-o", "own"], cwd=folder, capture_output=True, text=True)
     check(done.returncode == 0, f"the program reads Blender's OBJ and MDD: {done.stderr}")
     subprocess.run([PROGRAM, "convert", "own/hair.usda", "own/hair.pc2"], cwd=folder, check=True, capture_output=True)

@@ -23,15 +23,40 @@ def still(frames):
     return RigidMotion(np.tile(np.eye(3), (frames, 1, 1)), np.zeros((frames, 3)))
 
 
-def job(folder, options=OPTIONS, program=PROGRAM, bent=None):
-    """Two frames of two strands beside a head, from which their roots are 3 away. `bent`: of a head that bends."""
+def head_of(points, triangles, bent=None, carries=False):
+    return HeadMesh("Head", np.array(points, float), np.array(triangles), still(3), bent, carries)
+
+
+def tetrahedron(bent=None, carries=False):
+    return head_of([[0, 0, 3], [1, 0, 3], [0, 1, 3], [0, 0, 4]], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]], bent, carries)
+
+
+def ball(radius, rings=16, around=24):
+    """A sphere about the origin."""
+    down = np.pi * np.arange(1, rings) / rings
+    turn = 2 * np.pi * np.arange(around) / around
+    points = [(0, 0, radius)] + [(radius * np.sin(a) * np.cos(b), radius * np.sin(a) * np.sin(b), radius * np.cos(a))
+                                 for a in down for b in turn] + [(0, 0, -radius)]
+    at = lambda ring, k: 1 + ring * around + k % around
+    last, triangles = len(points) - 1, []
+    for k in range(around):
+        triangles += [(0, at(0, k), at(0, k + 1)), (last, at(rings - 2, k + 1), at(rings - 2, k))]
+        for ring in range(rings - 2):
+            a, b, c, d = at(ring, k), at(ring, k + 1), at(ring + 1, k), at(ring + 1, k + 1)
+            triangles += [(a, c, d), (a, d, b)]
+    return np.array(points), triangles
+
+
+TWO_STRANDS = [[0, 0, -i] for i in range(8)] + [[1, 0, -i] for i in range(8)]
+
+
+def job(folder, options=OPTIONS, program=PROGRAM, head=None, points=TWO_STRANDS):
+    """Two frames of two strands beside a head, from which their roots are 3 away."""
     settings = JobSettings(program=program, folder=str(folder), first_frame=1, last_frame=2, fps=24, unit=0.01,
                            gravity=9.81, pre_roll=0, material="", contacts=False, options=options)
-    points = np.array([[0, 0, -i] for i in range(8)] + [[1, 0, -i] for i in range(8)], float)
     frames = list(settings.sampled_frames)
-    head = HeadMesh("Head", np.array([[0, 0, 3], [1, 0, 3], [0, 1, 3], [0, 0, 4]], float),
-                    np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]), still(len(frames)), 0, bent)
-    samples = Samples([], [Strands(points, [8, 8])], still(len(frames)), head, frames, frames.index(1), [])
+    samples = Samples([], [Strands(np.array(points, float), [8, 8])], still(len(frames)), head or tetrahedron(), frames,
+                      frames.index(1), [])
     return Job(settings, samples)
 
 
@@ -73,12 +98,30 @@ def test_roots_follow_a_head_that_bends(tmp_path):
     bent = [rest + np.array([[0, 0, 0], [0.5 * (frame - 1), 0, 0], [0, 0, 0], [0, 0, 0]]) for frame in range(3)]
     folder = tmp_path / "hair"
     folder.mkdir()
-    done = run(folder, bent=bent)
+    done = run(folder, head=tetrahedron(bent, carries=True))
     assert done.error is None, done.error
     roots = np.array([PointCache(folder / "hair.pc2").frame(frame)[[0, 8]] for frame in range(2)])
     assert roots[:, 0] == pytest.approx(np.zeros((2, 3)), abs=1e-4)
     assert roots[:, 1] == pytest.approx(np.array([[1, 0, 0], [1.5, 0, 0]]), abs=1e-4)
-    assert {path.name for path in folder.iterdir()} >= {"scalp.obj", "scalp.pc2"}
+    assert {path.name for path in folder.iterdir()} >= {"head.obj", "head.pc2"}
+
+
+def test_hair_stays_out_of_a_head_that_bends(tmp_path):
+    """Half of a ball bulges towards two strands that hang beside it."""
+    rest, triangles = ball(3)
+    bent = [rest + rest * ((rest[:, :1] > 0) * [0.5 * frame / 3, 0, 0]) for frame in range(3)]
+    strands = [[3.6, y, 3 - i] for y in (0, 0.5) for i in range(8)]
+    folder = tmp_path / "hair"
+    folder.mkdir()
+    depths = {}
+    for name, frames in (("rigid", None), ("bends", bent)):
+        done = run(folder, head=head_of(bent[1], triangles, frames), points=strands)
+        assert done.error is None, done.error
+        points = PointCache(folder / "hair.pc2").frame(1)
+        depths[name] = 4 - np.linalg.norm(points * [1, 4 / 3, 4 / 3], axis=1).min()
+    cell = 8 / 64  # of a grid about the ball and where hair comes to
+    assert depths["rigid"] > 0.2, "the bulge must come to the hair"
+    assert depths["bends"] < cell, "hair must be outside of it"
 
 
 @pytest.mark.parametrize("name", OUR_FILES)

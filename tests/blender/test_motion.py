@@ -8,7 +8,7 @@ import pytest
 from ringlet_hair.errors import RingletError
 from ringlet_hair.rigid_motion import RigidMotion, motion_of_matrices, motion_of_points, quaternion_of
 from ringlet_hair.sampling import combined
-from ringlet_hair.scene_text import Collider, Keys, Scalp, Scene, keys_of, scene_text
+from ringlet_hair.scene_text import Bending, Collider, Keys, Scalp, Scene, keys_of, scene_text
 from ringlet_hair.strands import Strands
 
 
@@ -79,8 +79,8 @@ def test_scene_files_say_all():
     assert np.allclose(keys.positions, (np.arange(9).reshape(3, 3) + (1, 0, 0)) * 0.01)
     name = 'a "head"\\\n\x7f'
     own = Keys(np.array([0.0]), np.array([[1.0, 2, 3]]), np.array([[0.0, 0, 0, 1]]))
-    scene = Scene("groom.hair", 0.01, 3, 24.0, keys, 9.0, 0.5, "coil", True, Scalp("s.obj", "s.pc2", -0.25, 0.02),
-                  [Collider(name, "head.obj"), Collider("other", "b.obj", own)])
+    scene = Scene("groom.hair", 0.01, 3, 24.0, keys, 9.0, 0.5, "coil", True, Scalp("other", 0.02),
+                  [Collider(name, "head.obj"), Collider("other", "b.obj", own, Bending("b.pc2", -0.25))])
     read = tomllib.loads(scene_text(scene))
     assert read["groom"] == {"file": "groom.hair", "unit": 0.01, "up": "Z"}
     assert read["material"] == {"preset": "coil"}
@@ -90,8 +90,10 @@ def test_scene_files_say_all():
     assert [key["quaternion"] for key in read["motion"]["key"]] == keys.quaternions.tolist()
     assert read["simulation"] == {"fps": 24.0, "frames": 3, "gravity": 9.0}
     assert "contacts" in read
-    assert read["scalp"] == {"file": "s.obj", "cache": "s.pc2", "unit": 0.01, "start": -0.25, "farthest": 0.02}
+    assert read["scalp"] == {"body": "other", "farthest": 0.02}
     assert read["body"][0] == {"name": name, "shape": "mesh", "file": "head.obj", "unit": 0.01}
+    bending = {key: read["body"][1][key] for key in ("file", "unit", "deforms", "cache", "start")}
+    assert bending == {"file": "b.obj", "unit": 0.01, "deforms": True, "cache": "b.pc2", "start": -0.25}
     assert read["body"][1]["moves"]["key"] == [{"time": 0.0, "position": [1, 2, 3], "quaternion": [0, 0, 0, 1]}]
     plain = tomllib.loads(scene_text(Scene("groom.hair", 1.0, 3, 24.0, keys, material="/a/b.toml")))
     assert plain["material"] == {"file": "/a/b.toml"} and not {"contacts", "body", "scalp"} & set(plain)
@@ -110,8 +112,11 @@ def test_a_head_that_bends_moves_as_where_hair_grows():
     still = {"Hair": [np.eye(4)] * 4}
     samples = combined([source], [strands], still, SimpleNamespace(name="Body"), frames, np.zeros((1, 3), int), range(4), 0)
     assert np.allclose(samples.motion.rotations, nods) and np.allclose(samples.head.motion.rotations, nods)
-    assert samples.head.off < 1e-9 and samples.head.bent is frames
-    assert "Body bends" in samples.warnings[0] and "Roots follow it" in samples.warnings[0]
+    assert samples.head.bent is frames and samples.head.carries and not samples.warnings
+    own = {"Hair": [np.eye(4) + np.diag([0.1 * k], 3) for k in range(4)]}
+    samples = combined([source], [strands], own, SimpleNamespace(name="Body"), frames, np.zeros((1, 3), int), range(4), 0)
+    assert samples.head.bent is frames and not samples.head.carries
+    assert "Body bends" in samples.warnings[0] and "Hair moves by itself" in samples.warnings[0]
     rigid = [rest @ nod.T for nod in nods]
     samples = combined([source], [strands], still, SimpleNamespace(name="Body"), rigid, np.zeros((1, 3), int), range(4), 0)
     assert samples.head.bent is None and not samples.warnings

@@ -12,11 +12,11 @@ from .hair_file import write_hair
 from .mesh_file import write_obj_mesh
 from .point_cache import write_point_cache
 from .program import Run, command_line
-from .scene_text import SCENE_HEADING, Collider, Scalp, Scene, keys_of, scene_text
+from .scene_text import SCENE_HEADING, Bending, Collider, Scalp, Scene, keys_of, scene_text
 from .strands import joined
 from .usd_points import usd_frames
 
-OUR_FILES = ("scene.toml", "groom.hair", "head.obj", "scalp.obj", "scalp.pc2", "hair.pc2", "hair.pc2.partial")
+OUR_FILES = ("scene.toml", "groom.hair", "head.obj", "head.pc2", "hair.pc2", "hair.pc2.partial")
 
 FARTHEST_ROOT = 0.25  # from a head that bends, of its size; hair beyond is not this head's
 
@@ -73,14 +73,20 @@ def write_inputs(settings, samples):
     def keys(motion, about):
         return keys_of(motion, about, samples.frames, settings.start_frame, settings.fps, settings.unit)
 
-    colliders = []
+    colliders, scalp = [], None
     if samples.head:
         head = samples.head
-        goes_along = head.motion.is_as(samples.motion, np.abs(head.points).max() + np.ptp(head.points, axis=0).max())
+        size = np.ptp(head.points, axis=0).max()
+        goes_along = head.motion.is_as(samples.motion, np.abs(head.points).max() + size)
         about = pivot if goes_along else head.points.mean(axis=0)
-        write_obj_mesh(os.path.join(settings.folder, "head.obj"), head.points - about, head.triangles)
-        colliders.append(Collider(head.name, "head.obj", None if goes_along else keys(head.motion, about)))
-    scalp = write_scalp(settings, samples) if samples.head and samples.head.bent else None
+        own_way = None if goes_along else keys(head.motion, about)
+        if head.bent:
+            colliders.append(Collider(head.name, "head.obj", own_way, write_bending(settings, samples)))
+            if head.carries:
+                scalp = Scalp(head.name, FARTHEST_ROOT * size * settings.unit)
+        else:
+            write_obj_mesh(os.path.join(settings.folder, "head.obj"), head.points - about, head.triangles)
+            colliders.append(Collider(head.name, "head.obj", own_way))
     scene = Scene(groom="groom.hair", unit=settings.unit, frames=settings.last_frame - settings.first_frame + 1,
                   fps=settings.fps, keys=keys(samples.motion, pivot), gravity=settings.gravity,
                   pre_roll=settings.pre_roll / settings.fps, material=settings.material,
@@ -91,14 +97,12 @@ def write_inputs(settings, samples):
     return path
 
 
-def write_scalp(settings, samples):
-    """The head as it bends, from the bind frame on: the roots are on it as it is there."""
+def write_bending(settings, samples):
+    """The head as it bends, from the bind frame on: hair is on it, or beside it, as it is there."""
     head, frames = samples.head, samples.head.bent[samples.bind:]
-    write_obj_mesh(os.path.join(settings.folder, "scalp.obj"), frames[0], head.triangles)
-    write_point_cache(os.path.join(settings.folder, "scalp.pc2"), frames, len(head.points))
-    start = (samples.frames[samples.bind] - settings.start_frame) / settings.fps
-    size = np.ptp(head.points, axis=0).max() * settings.unit
-    return Scalp("scalp.obj", "scalp.pc2", start, FARTHEST_ROOT * size)
+    write_obj_mesh(os.path.join(settings.folder, "head.obj"), frames[0], head.triangles)
+    write_point_cache(os.path.join(settings.folder, "head.pc2"), frames, len(head.points))
+    return Bending("head.pc2", (samples.frames[samples.bind] - settings.start_frame) / settings.fps)
 
 
 class Job:

@@ -15,9 +15,9 @@ class HeadMesh:
     name: str
     points: np.ndarray      # (n, 3) in the world at the bind frame [Blender unit]
     triangles: np.ndarray   # (m, 3)
-    motion: RigidMotion
-    off: float              # how far a point is from the rigid motion at most [Blender unit]
-    bent: list = None       # (n, 3) in the world at each frame, where it bends and carries the hair
+    motion: RigidMotion     # of one that bends as the skin below the hair moves
+    bent: list = None       # (n, 3) in the world at each frame, where it bends
+    carries: bool = False   # it carries the hair
 
 
 @dataclass
@@ -69,19 +69,17 @@ def combined(sources, strands, matrices, head, head_points, triangles, frames, b
                                "take the modifier that changes it off")
         head_motion, off = motion_of_points(head_points, head_points[bind])
         is_bent = off > 1e-3 * np.ptp(head_points[bind], axis=0).max()
-        if is_bent:  # it counts as what moves as the skin below the hair does
+        if is_bent:
             near = nearest_points(head_points[bind], np.concatenate([part.roots for part in strands]))
             if len(near) >= FEWEST_POINTS:
-                head_motion, off = motion_of_points([points[near] for points in head_points], head_points[bind][near])
-        mesh = HeadMesh(head.name, head_points[bind], triangles, head_motion, off)
+                head_motion, _ = motion_of_points([points[near] for points in head_points], head_points[bind][near])
         is_carried = motion.is_still(size)
         if is_carried:
             motion = head_motion
-        if is_bent:
-            mesh.bent = head_points if is_carried else None
-            warnings.append(f"{head.name} bends, and hair stays out of it as if it did not: it is taken to move as where "
-                            f"hair grows, whose points are up to {off:.3g} units from that. "
-                            + ("Roots follow it as it bends" if is_carried else "Roots go as their object does"))
+        elif is_bent:
+            warnings.append(f"{head.name} bends, and {sources[0].name} moves by itself: roots go as it does, not with "
+                            f"the skin of {head.name}")
+        mesh = HeadMesh(head.name, head_points[bind], triangles, head_motion, head_points if is_bent else None, is_carried)
     return Samples(sources, strands, motion, mesh, list(frames), bind, warnings)
 
 

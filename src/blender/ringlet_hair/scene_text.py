@@ -19,18 +19,23 @@ class Keys:
 
 
 @dataclass
+class Bending:
+    """The points of a mesh that bends, in the world, in every frame."""
+    cache: str        # PC2
+    start: float      # of its first frame [s]
+
+
+@dataclass
 class Collider:
     name: str
-    file: str                      # OBJ, in the frame of what carries it
-    keys: Optional[Keys] = None    # its own way; none: it goes with the hair
+    file: str                          # OBJ, in the frame of what carries it; of one that bends in the world
+    keys: Optional[Keys] = None        # its own way; none: it goes with the hair
+    bending: Optional[Bending] = None
 
 
 @dataclass
 class Scalp:
-    """A mesh that bends, in the world: an OBJ file and its points in every frame."""
-    file: str
-    cache: str
-    start: float      # of its first frame [s]
+    body: str         # the name of a collider that bends
     farthest: float   # from it, of a root [m]
 
 
@@ -66,14 +71,17 @@ def scene_text(scene: Scene):
     lines += ["[motion]", f"pre_roll = {scene.pre_roll!r}", ""]
     lines += key_lines("motion.key", scene.keys)
     if scene.scalp:
-        lines += ["[scalp]", f"file = {quoted(scene.scalp.file)}", f"cache = {quoted(scene.scalp.cache)}",
-                  f"unit = {scene.unit!r}", f"start = {scene.scalp.start!r}", f"farthest = {scene.scalp.farthest!r}", ""]
+        lines += ["[scalp]", f"body = {quoted(scene.scalp.body)}", f"farthest = {scene.scalp.farthest!r}", ""]
     lines += ["[simulation]", f"fps = {scene.fps!r}", f"frames = {scene.frames}", f"gravity = {scene.gravity!r}", ""]
     if scene.contacts:
         lines += ["[contacts]", ""]
     for collider in scene.colliders:
         lines += ["[[body]]", f"name = {quoted(collider.name)}", 'shape = "mesh"', f"file = {quoted(collider.file)}",
-                  f"unit = {scene.unit!r}", ""]
+                  f"unit = {scene.unit!r}"]
+        if collider.bending:
+            lines += ["deforms = true", f"cache = {quoted(collider.bending.cache)}",
+                      f"start = {collider.bending.start!r}"]
+        lines += [""]
         if collider.keys:
             lines += key_lines("body.moves.key", collider.keys)
     lines += ["[output]", "files = [" + ", ".join(quoted(file) for file in scene.files) + "]", ""]
