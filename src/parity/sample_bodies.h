@@ -72,20 +72,19 @@ inline Body bendingBall(double radius, double cell, Vec3d about = {}) {
   return body;
 }
 
-/// Cloth: a sheet of 288 triangles, `size` across, about the place, level but for its waves.
-inline Body sheet(double size, Vec3d about = {}) {
-  constexpr std::uint32_t kCells = 12;
+/// Cloth: a sheet of 2 cells^2 triangles, `size` across, about the place, level but for its waves.
+inline Body sheet(double size, Vec3d about = {}, std::uint32_t cells = 12) {
   TriangleMesh mesh;
-  for (std::uint32_t j = 0; j <= kCells; ++j) {
-    for (std::uint32_t i = 0; i <= kCells; ++i) {
-      const double x = (double(i) / kCells - 0.5) * size, z = (double(j) / kCells - 0.5) * size;
+  for (std::uint32_t j = 0; j <= cells; ++j) {
+    for (std::uint32_t i = 0; i <= cells; ++i) {
+      const double x = (double(i) / cells - 0.5) * size, z = (double(j) / cells - 0.5) * size;
       mesh.points.push_back(about +
                             Vec3d{x, 0.05 * size * std::sin(9 * x / size) * std::cos(7 * z / size), z});
     }
   }
-  for (std::uint32_t j = 0; j < kCells; ++j) {
-    for (std::uint32_t i = 0; i < kCells; ++i) {
-      const std::uint32_t a = j * (kCells + 1) + i, b = a + 1, c = a + kCells + 1, d = c + 1;
+  for (std::uint32_t j = 0; j < cells; ++j) {
+    for (std::uint32_t i = 0; i < cells; ++i) {
+      const std::uint32_t a = j * (cells + 1) + i, b = a + 1, c = a + cells + 1, d = c + 1;
       mesh.triangles.push_back({a, c, b});
       mesh.triangles.push_back({b, c, d});
     }
