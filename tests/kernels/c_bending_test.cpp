@@ -205,5 +205,37 @@ TEST_P(CHostsBody, HasTheBitsOfTheLibrary) {
   refused("expected 8 to 256");
 }
 
+TEST_F(CBending, AMeshsWarningsAreToldWithItsBody) {
+  TriangleMesh turned = ballAt(0);
+  for (auto& triangle : turned.triangles) std::swap(triangle[1], triangle[2]);
+  std::vector<float> vertices;
+  for (const Vec3d& p : turned.points)
+    for (const double number : {p.x, p.y, p.z}) vertices.push_back(static_cast<float>(number));
+  Handles c;
+  open(c);
+  const Groom groom = randomGroom({12}, 1);
+  const CGroom from(groom);
+  ASSERT_EQ(ringlet_asset_build(c.device, &from.groom, nullptr, nullptr, nullptr, &c.asset), RINGLET_OK);
+  for (const int deforms : {0, 1}) {
+    std::vector<std::string> told;
+    ringlet_body body = RINGLET_INIT(ringlet_body);
+    body.shape = "mesh", body.vertices = vertices.data(), body.triangles = turned.triangles[0].data();
+    body.vertex_count = static_cast<std::uint32_t>(turned.points.size());
+    body.triangle_count = static_cast<std::uint32_t>(turned.triangles.size());
+    body.cells = 16, body.deforms = deforms;
+    body.warn = [](const char* sentence, void* user) {
+      static_cast<std::vector<std::string>*>(user)->push_back(sentence);
+    };
+    body.user = &told;
+    ringlet_initial_state initial = RINGLET_INIT(ringlet_initial_state);
+    initial.bodies = &body, initial.body_count = 1;
+    ASSERT_EQ(ringlet_hair_create(c.asset, &initial, &c.hairs.emplace_back()), RINGLET_OK);
+    ASSERT_EQ(told.size(), 1u) << deforms;
+    expectParts(told[0], {"body 0: ", "inside out"});
+    body.warn = nullptr;
+    EXPECT_EQ(ringlet_hair_set_bodies(c.hairs.back(), &body, 1), RINGLET_OK) << ringlet_error_message();
+  }
+}
+
 }  // namespace
 }  // namespace ringlet::test::c_bending_test

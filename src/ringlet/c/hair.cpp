@@ -100,7 +100,7 @@ TriangleMesh meshOf(const ringlet_body& from) {
 }
 
 // The grid, or grids, of a mesh of the caller's.
-Status makeGrid(const ringlet_body& from, Body& body) {
+Status makeGrid(const ringlet_body& from, Body& body, std::vector<std::string>& warnings) {
   TriangleMesh mesh = meshOf(from);
   const int cells = from.cells == 0 ? 64 : from.cells;
   if (from.deforms) {
@@ -108,13 +108,13 @@ Status makeGrid(const ringlet_body& from, Body& body) {
                                         {from.grid_high[0], from.grid_high[1], from.grid_high[2]}};
     if (*grid == Bounds{}) grid.reset();
     const BendingRoom room = bendingRoomOf(mesh.points, grid, cells, from.both_sides != 0);
-    std::vector<std::string> warnings;  // there is no place for them
     return makeBendingMesh(std::move(mesh), room, body, warnings);
   }
   if (from.both_sides) return Error{"a mesh has hair on both sides only if it deforms; expected deforms 1"};
   auto grid = makeDistanceGrid(mesh, {.cells = cells});
   if (!grid) return grid.error();
   body.grid = std::make_shared<const DistanceGrid>(std::move(grid->grid));
+  warnings = std::move(grid->warnings);
   return {};
 }
 
@@ -130,8 +130,11 @@ Outcome takeBody(const ringlet_body& from, std::uint32_t index, Body& body) {
   if (!place) return Error{fmt::format("{} {}", body.name, kWrongPose)};
   body.place = *place;
   if (body.shape != BodyShape::grid) return {};
-  if (Status made = makeGrid(from, body); !made)
+  std::vector<std::string> warnings;
+  if (Status made = makeGrid(from, body, warnings); !made)
     return Error{fmt::format("{}: {}", body.name, made.error().message), made.error().fault};
+  for (std::string& sentence : warnings) sentence = fmt::format("{}: {}", body.name, sentence);
+  warnOf(warnings, from.warn, from.user);
   return {};
 }
 

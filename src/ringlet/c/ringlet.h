@@ -201,6 +201,10 @@ typedef struct ringlet_body {
   /* 1 for cloth: a mesh that bends, open or closed, whose both sides hold hair off, by `thickness`, 0.5 mm at
      least. It has no grid. */
   int32_t both_sides;
+  /* Called for each warning of a mesh, with a sentence for the user that names the body, before the function
+     that was given it returns. May be NULL. */
+  void (*warn)(const char* sentence, void* user);
+  void* user;
 } ringlet_body;
 
 typedef struct ringlet_initial_state {
