@@ -6,11 +6,13 @@
 #include <memory>
 #include <vector>
 
+#include "parity/sample_bodies.h"
 #include "ringlet/c/ringlet.h"
 #include "ringlet/follow/followers.h"
 #include "ringlet/follow/level_of_detail.h"
 #include "ringlet/gpu/device.h"
 #include "ringlet/groom/generate.h"
+#include "ringlet/solver/device_points.h"
 #include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/hair_frames.h"
 #include "ringlet/solver/simulation.h"
@@ -290,16 +292,21 @@ TEST(AdoptedDevice, AHostGivesTheMemory) {
   EXPECT_EQ(*messages, std::vector<std::string>{});
 }
 
+ringlet_host_vulkan hostInC(const HostVulkan& handles) {
+  ringlet_host_vulkan c = RINGLET_INIT(ringlet_host_vulkan);
+  c.get_instance_proc_addr = handles.getInstanceProcAddr, c.instance = handles.instance;
+  c.physical_device = handles.physicalDevice, c.device = handles.device, c.queue = handles.queue;
+  c.queue_family = handles.queueFamily, c.api_version = handles.apiVersion;
+  return c;
+}
+
 // The same through the C interface.
 TEST(AdoptedDevice, AHostInCGivesTheMemory) {
   Host host(true);
   HostPool pool(host, 16ull << 20);
   HostVulkan handles = host.handles();
   pool.serve(handles);
-  ringlet_host_vulkan c = RINGLET_INIT(ringlet_host_vulkan);
-  c.get_instance_proc_addr = handles.getInstanceProcAddr, c.instance = handles.instance;
-  c.physical_device = handles.physicalDevice, c.device = handles.device, c.queue = handles.queue;
-  c.queue_family = handles.queueFamily, c.api_version = handles.apiVersion;
+  ringlet_host_vulkan c = hostInC(handles);
   c.user = &handles;
   c.allocate = [](void* user, uint64_t bytes, uint64_t alignment, uint32_t type, ringlet_memory* memory) {
     HostMemory given;
@@ -335,6 +342,93 @@ TEST(AdoptedDevice, AHostInCGivesTheMemory) {
   ringlet_device_release(device);
   EXPECT_GT(pool.given(), 0u);
   EXPECT_EQ(pool.kept(), 0u);
+  EXPECT_EQ(*host.messages(), std::vector<std::string>{});
+}
+
+// Of each point of a mesh x, y and z, and what else stands between them.
+std::vector<float> numbersOf(const std::vector<Vec3d>& points, std::size_t before, std::size_t each) {
+  std::vector<float> numbers(before + each * points.size(), -7);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3f p(points[i]);
+    std::copy_n(&p.x, 3, &numbers[before + each * i]);
+  }
+  return numbers;
+}
+
+// A body that bends as commands of the host's write it, which are submitted and not waited for: the bits are
+// those of the same points from the host's memory.
+TEST(AdoptedDevice, AHostsBuffersBendABody) {
+  Host host(true);
+  {
+    const auto device = ComputeDevice::adopt(host.handles());
+    ASSERT_TRUE(device) << device.error().message;
+    const Body bodies[] = {parity::bendingBall(0.06, 0.006), parity::sheet(0.3, {0, -0.1, 0})};
+    const auto asset = assetOn(*device, false);
+    ASSERT_TRUE(asset) << asset.error().message;
+    const InitialState start{.head = headAt(0, 0), .bodies = bodies};
+    auto hair = Simulation::create(*asset, start), expected = Simulation::create(*asset, start),
+         still = Simulation::create(*asset, start);
+    ASSERT_TRUE(hair && expected && still);
+    for (int frame = 1; frame <= 4; ++frame) {
+      std::vector<Host::Written> written;
+      std::vector<DevicePoints> buffers;
+      std::vector<std::vector<Vec3d>> points;
+      for (const Body& body : bodies) {
+        const std::size_t before = points.empty() ? 0 : 8, each = points.empty() ? 3 : 4;
+        std::vector<Vec3d> bent = parity::bentPoints(*body.mesh, frame / 24.0);
+        for (Vec3d& p : bent) p = Vec3d(Vec3f(p));
+        written.push_back(host.write(numbersOf(bent, before, each)));
+        buffers.push_back({.buffer = written.back().owned.buffer,
+                           .offset = 4 * before,
+                           .stride = static_cast<std::uint32_t>(4 * each),
+                           .count = static_cast<std::uint32_t>(bent.size())});
+        points.push_back(std::move(bent));
+      }
+      const auto read = readPoints(*device, buffers);
+      ASSERT_TRUE(read) << read.error().message;
+      EXPECT_EQ(*read, points) << frame;
+      const std::vector<std::span<const Vec3d>> found(read->begin(), read->end()),
+          given(points.begin(), points.end());
+      const std::vector<HeadPose> poses = posesOf(0, frame);
+      ASSERT_TRUE(hair->stepFrame(poses, {}, {}, found));
+      ASSERT_TRUE(expected->stepFrame(poses, {}, {}, given));
+      ASSERT_TRUE(still->stepFrame(poses));
+      for (const Host::Written& one : written) host.drop(one);
+    }
+    EXPECT_EQ(*hair->positions(), *expected->positions());
+    EXPECT_NE(*hair->positions(), *still->positions()) << "the bodies must move hair";
+    for (const DevicePoints& wrong : {DevicePoints{},
+                                      {.buffer = &host, .offset = 2},
+                                      {.buffer = &host, .stride = 8},
+                                      {.buffer = &host, .stride = 14},
+                                      {.buffer = &host, .stride = 2048}})
+      EXPECT_FALSE(readPoints(*device, std::span(&wrong, 1)));
+  }
+  EXPECT_EQ(*host.messages(), std::vector<std::string>{});
+}
+
+// The same through the C interface.
+TEST(AdoptedDevice, AHostInCReadsPointsOfItsBuffers) {
+  Host host(true);
+  const HostVulkan handles = host.handles();
+  ringlet_host_vulkan c = hostInC(handles);
+  ringlet_device* device = nullptr;
+  ASSERT_EQ(ringlet_device_adopt(&c, &device), RINGLET_OK) << ringlet_error_message();
+  const std::vector<Vec3d> points{{1, 2, 3}, {-4, 5.5, 6}, {7, 8, -0.25}};
+  const Host::Written written = host.write(numbersOf(points, 1, 5));
+  ringlet_device_points buffer = RINGLET_INIT(ringlet_device_points);
+  buffer.buffer = written.owned.buffer, buffer.offset = 4, buffer.stride = 20, buffer.count = 3;
+  double xyz[9] = {};
+  double* places[] = {xyz};
+  EXPECT_EQ(ringlet_read_device_points(device, &buffer, 1, places), RINGLET_OK) << ringlet_error_message();
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ((Vec3d{xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]}), points[i]);
+  places[0] = nullptr;
+  EXPECT_EQ(ringlet_read_device_points(device, &buffer, 1, places), RINGLET_ERROR_INVALID_ARGUMENT);
+  places[0] = xyz, buffer.stride = 8;
+  EXPECT_EQ(ringlet_read_device_points(device, &buffer, 1, places), RINGLET_ERROR);
+  host.drop(written);
+  ringlet_device_release(device);
   EXPECT_EQ(*host.messages(), std::vector<std::string>{});
 }
 

@@ -48,6 +48,24 @@ void Host::drop(const Owned& owned) {
   CALL(vkFreeMemory)(device_, owned.memory, nullptr);
 }
 
+Host::Written Host::write(const std::vector<float>& numbers) {
+  constexpr std::size_t kMost = 16384;  // numbers of an update
+  Written written;
+  written.owned = makeBuffer(numbers.size() * sizeof(float),
+                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+  written.work = submit([&](VkCommandBuffer commands) {
+    for (std::size_t at = 0; at < numbers.size(); at += kMost) CALL(vkCmdUpdateBuffer)
+    (commands, written.owned.buffer, at * sizeof(float), std::min(kMost, numbers.size() - at) * sizeof(float),
+     &numbers[at]);
+  });
+  return written;
+}
+
+void Host::drop(const Written& written) {
+  wait(written.work);
+  drop(written.owned);
+}
+
 void Host::makeInstance() {
   const VkValidationFeatureEnableEXT synchronisation =
       VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;

@@ -62,12 +62,20 @@ class Host {
   std::vector<std::uint32_t> read(
       VkBuffer source, std::uint64_t bytes, const Record& before = [](VkCommandBuffer) {});
 
- private:
   struct Owned {
     VkBuffer buffer = VK_NULL_HANDLE;
     VkDeviceMemory memory = VK_NULL_HANDLE;
     void* mapped = nullptr;
   };
+  // A buffer into which commands write that are submitted, and may not be done yet; and when it is read.
+  struct Written {
+    Owned owned;
+    Work work;
+  };
+  Written write(const std::vector<float>& numbers);
+  void drop(const Written& written);
+
+ private:
   // One that copies numbers, with a set of its buffers.
   struct Kernel {
     VkDescriptorSetLayout setLayout;

@@ -6,6 +6,7 @@
 
 #include "ringlet/base/shown_text.h"
 #include "ringlet/c/handles.h"
+#include "ringlet/solver/device_points.h"
 #include "ringlet/version.h"
 
 namespace ringlet::c {
@@ -183,6 +184,31 @@ ringlet_result ringlet_device_adopt(const ringlet_host_vulkan* host, ringlet_dev
     auto adopted = ComputeDevice::adopt(hostOf(taken(host)));
     if (!adopted) return adopted.error();
     *device = handleOf(std::move(*adopted));
+    return {};
+  });
+}
+
+ringlet_result ringlet_read_device_points(ringlet_device* device, const ringlet_device_points* buffers,
+                                          uint32_t buffer_count, double* const* xyz) {
+  return guarded([&]() -> Outcome {
+    if (Outcome wrong = checkArguments(
+            "ringlet_read_device_points takes a device, buffers that say their size, and places for their points",
+            {given("device", device), sized("buffers", buffers), given("xyz", xyz)});
+        !wrong.isFine())
+      return wrong;
+    std::vector<DevicePoints> from;
+    for (uint32_t b = 0; b < buffer_count; ++b) {
+      const ringlet_device_points points = taken(buffers, b);
+      from.push_back({points.buffer, points.offset, points.stride == 0 ? 12 : points.stride, points.count});
+      if (!xyz[b]) return Outcome::invalid(fmt::format("there is no place for the points of buffer {}", b));
+    }
+    const auto read = readPoints(device->device, from);
+    if (!read) return read.error();
+    for (std::size_t b = 0; b < read->size(); ++b) {
+      double* to = xyz[b];
+      for (const Vec3d& p : (*read)[b])
+        for (const double number : {p.x, p.y, p.z}) *to++ = number;
+    }
     return {};
   });
 }

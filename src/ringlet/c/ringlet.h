@@ -235,6 +235,20 @@ typedef struct ringlet_frame {
   uint32_t point_samples;
 } ringlet_frame;
 
+/* Points that kernels of the host's have left on the device, such as those of a mesh that it skins there:
+   x, y, z as floats. The rules are those of DevicePoints in solver/device_points.h. */
+typedef struct ringlet_device_points {
+  size_t struct_size;
+  void* buffer;    /* VkBuffer */
+  uint64_t offset; /* of the first point [bytes] */
+  uint32_t stride; /* from a point to the next [bytes]; 0 means 12 */
+  uint32_t count;
+} ringlet_device_points;
+/* Copies the points of each of `buffer_count` buffers to xyz[buffer], as body_points of a frame takes them, and
+   waits. */
+ringlet_result ringlet_read_device_points(ringlet_device* device, const ringlet_device_points* buffers,
+                                          uint32_t buffer_count, double* const* xyz);
+
 /* Computes a frame of each hair in one submission and waits for it. Each hair may occur once. */
 ringlet_result ringlet_step(const ringlet_frame* frames, uint32_t frame_count);
 /* Computes a frame of one hair; the head's poses are interpolated from its present one to `head`. */

@@ -125,6 +125,16 @@ void CommandList::copyBuffer(const Buffer& from, const Buffer& to, std::uint64_t
       from.handle(), to.handle(), {.srcOffset = fromOffset, .dstOffset = toOffset, .size = bytes}});
 }
 
+void CommandList::copyFromHost(void* from, std::uint64_t fromOffset, const Buffer& to, std::uint64_t bytes,
+                               std::uint64_t toOffset) {
+  RINGLET_ASSERT(toOffset <= to.bytes() && bytes <= to.bytes() - toOffset,
+                 "a copy runs past its target's end");
+  if (bytes == 0) return;
+  add(command::Copy{static_cast<VkBuffer>(from),
+                    to.handle(),
+                    {.srcOffset = fromOffset, .dstOffset = toOffset, .size = bytes}});
+}
+
 void CommandList::fillZero(const Buffer& buffer) { fillZero(buffer, buffer.capacity(), 0); }
 void CommandList::fillZero(const Buffer& buffer, std::uint64_t bytes, std::uint64_t offset) {
   add(command::Fill{buffer.handle(), bytes, offset});

@@ -88,6 +88,9 @@ class CommandList {
 
   void copyBuffer(const Buffer& from, const Buffer& to, std::uint64_t bytes, std::uint64_t fromOffset = 0,
                   std::uint64_t toOffset = 0);
+  /// From a VkBuffer of a host's, whose size nobody here knows.
+  void copyFromHost(void* from, std::uint64_t fromOffset, const Buffer& to, std::uint64_t bytes,
+                    std::uint64_t toOffset);
   void fillZero(const Buffer& buffer);
   /// `bytes` from `offset` on, both multiples of 4.
   void fillZero(const Buffer& buffer, std::uint64_t bytes, std::uint64_t offset);
