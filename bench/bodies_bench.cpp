@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bench/clocks.h"
+#include "bench/device_main.h"
 #include "reference/kernels/mesh_field.h"
 #include "ringlet/base/packed.h"
 #include "ringlet/bodies/close_mesh.h"
@@ -120,22 +121,13 @@ void build(benchmark::State& state) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  auto opened = ComputeDevice::open();
-  if (!opened) {
-    fmt::print(stderr, "bodies_bench: {}\n", opened.error().message);
-    return 1;
-  }
-  device = &*opened;
-  fmt::print("device: {} ({})\n", device->name(), device->driver());
-  for (const int frequency : {8, 16, 32})
-    for (const int cells : {48, 64, 96})
-      benchmark::RegisterBenchmark("field_build", build)
-          ->ArgNames({"frequency", "cells"})
-          ->Args({frequency, cells})
-          ->Unit(benchmark::kMillisecond)
-          ->Iterations(15);
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
+  return runOnDevice(argc, argv, "bodies_bench", device, [] {
+    for (const int frequency : {8, 16, 32})
+      for (const int cells : {48, 64, 96})
+        benchmark::RegisterBenchmark("field_build", build)
+            ->ArgNames({"frequency", "cells"})
+            ->Args({frequency, cells})
+            ->Unit(benchmark::kMillisecond)
+            ->Iterations(15);
+  });
 }

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "bench/clocks.h"
+#include "bench/device_main.h"
 #include "parity/sample_bodies.h"
 #include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/simulation.h"
@@ -146,22 +147,13 @@ void onCloth(benchmark::State& state) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  auto opened = ComputeDevice::open();
-  if (!opened) {
-    fmt::print(stderr, "cloth_bench: {}\n", opened.error().message);
-    return 1;
-  }
-  device = &*opened;
-  fmt::print("device: {} ({})\n", device->name(), device->driver());
-  for (const int strands : {150, 600})
-    for (const int cells : {12, 30, 60})
-      benchmark::RegisterBenchmark("on_cloth", onCloth)
-          ->ArgNames({"strands", "cells"})
-          ->Args({strands, cells})
-          ->Unit(benchmark::kMillisecond)
-          ->Iterations(15);
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
+  return runOnDevice(argc, argv, "cloth_bench", device, [] {
+    for (const int strands : {150, 600})
+      for (const int cells : {12, 30, 60})
+        benchmark::RegisterBenchmark("on_cloth", onCloth)
+            ->ArgNames({"strands", "cells"})
+            ->Args({strands, cells})
+            ->Unit(benchmark::kMillisecond)
+            ->Iterations(15);
+  });
 }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "bench/clocks.h"
+#include "bench/device_main.h"
 #include "ringlet/base/box_pairs.h"
 #include "ringlet/solver/diagnostics.h"
 #include "ringlet/solver/simulation.h"
@@ -152,24 +153,15 @@ void contacts(benchmark::State& state) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  auto opened = ComputeDevice::open();
-  if (!opened) {
-    fmt::print(stderr, "contacts_bench: {}\n", opened.error().message);
-    return 1;
-  }
-  device = &*opened;
-  fmt::print(
-      "device: {} ({}). A step whose lists are made anew; cpp_grid_ms: finding the same pairs on one thread, "
-      "with\n"
-      "base/box_pairs.h. 'contacts' touch or did; 'listed' are near.\n",
-      device->name(), device->driver());
-  benchmark::RegisterBenchmark("contacts", contacts)
-      ->Arg(10'000)
-      ->Arg(100'000)
-      ->Arg(1'000'000)
-      ->Unit(benchmark::kMillisecond)
-      ->Iterations(11);
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
+  return bench::runOnDevice(argc, argv, "contacts_bench", device, [] {
+    fmt::print(
+        "A step whose lists are made anew; cpp_grid_ms: finding the same pairs on one thread, with\n"
+        "base/box_pairs.h. 'contacts' touch or did; 'listed' are near.\n");
+    benchmark::RegisterBenchmark("contacts", contacts)
+        ->Arg(10'000)
+        ->Arg(100'000)
+        ->Arg(1'000'000)
+        ->Unit(benchmark::kMillisecond)
+        ->Iterations(11);
+  });
 }

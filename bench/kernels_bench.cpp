@@ -20,6 +20,7 @@
 
 #include "bench/clocks.h"
 #include "bench/curls.h"
+#include "bench/device_main.h"
 #include "bench/peaks.h"
 #include "bench/strand_contest.h"
 
@@ -113,21 +114,11 @@ void registerAll() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  auto opened = ComputeDevice::open();
-  if (!opened) {
-    fmt::print(stderr, "kernels_bench: {}\n", opened.error().message);
-    return 1;
-  }
-  device = &*opened;
-  ThreadTeam team(coreCount());
-  fmt::print(
-      "device: {} ({}); {} cores: {:.1f} GFLOP/s of multiply-adds, {:.1f} GB/s of copying\n"
-      "hand-vectorised loop: {}\n",
-      device->name(), device->driver(), coreCount(), 1e-9 * multiplyAddPeak(team, 0.2),
-      1e-9 * CopyPeak().measure(team), sweepFlags());
-  registerAll();
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
+  return runOnDevice(argc, argv, "kernels_bench", device, [] {
+    ThreadTeam team(coreCount());
+    fmt::print(
+        "{} cores: {:.1f} GFLOP/s of multiply-adds, {:.1f} GB/s of copying\nhand-vectorised loop: {}\n",
+        coreCount(), 1e-9 * multiplyAddPeak(team, 0.2), 1e-9 * CopyPeak().measure(team), sweepFlags());
+    registerAll();
+  });
 }

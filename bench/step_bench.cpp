@@ -15,6 +15,7 @@
 #include <map>
 
 #include "bench/clocks.h"
+#include "bench/device_main.h"
 #include "reference/step.h"
 #include "ringlet/bodies/shape_grid.h"
 #include "ringlet/groom/generate.h"
@@ -202,17 +203,8 @@ void registerAll() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  auto opened = ComputeDevice::open();
-  if (!opened) {
-    fmt::print(stderr, "step_bench: {}\n", opened.error().message);
-    return 1;
-  }
-  device = &*opened;
-  fmt::print("device: {} ({}), {} cores; heads of curls, 24 frames a second, 8 steps a frame\n",
-             device->name(), device->driver(), coreCount());
-  registerAll();
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
+  return runOnDevice(argc, argv, "step_bench", device, [] {
+    fmt::print("{} cores; heads of curls, 24 frames a second, 8 steps a frame\n", coreCount());
+    registerAll();
+  });
 }

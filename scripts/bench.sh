@@ -42,8 +42,7 @@ trap 'rm -rf "$log"' EXIT
 # header COMMAND: what a figure needs to be believed.
 header() {
   echo "# commit $(git describe --always --dirty --abbrev=12), $(date --utc +%Y-%m-%d)"
-  sed -n 's/^\(device: .*\)/# \1/p' "$log/out"
-  sed -n 's/^\(hand-vectorised loop: .*\)/# \1/p' "$log/out"
+  sed -nE 's/^((device|[0-9]+ cores|hand-vectorised loop)[:;] .*)/# \1/p' "$log/out"
   echo "# $1"
 }
 # The device's name, as its programs print it, made into a folder's.
