@@ -244,8 +244,8 @@ typedef struct ringlet_device_points {
   uint32_t stride; /* from a point to the next [bytes]; 0 means 12 */
   uint32_t count;
 } ringlet_device_points;
-/* Copies the points of each of `buffer_count` buffers to xyz[buffer], as body_points of a frame takes them, and
-   waits. */
+/* Copies the points of each of `buffer_count` buffers to xyz[buffer], as body_points of a frame takes them,
+   and waits. */
 ringlet_result ringlet_read_device_points(ringlet_device* device, const ringlet_device_points* buffers,
                                           uint32_t buffer_count, double* const* xyz);
 
