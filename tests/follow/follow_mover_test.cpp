@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "parity/sample_bodies.h"
 #include "ringlet/groom/generate.h"
 #include "ringlet/pictures/full_hair.h"
 #include "tests/support/gpu_test.h"
@@ -42,6 +43,28 @@ TEST_F(FollowMoverTest, ItsHairsAreInTheGroomsUnit) {
     if (expected.empty()) expected = found;
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < found.size(); ++i) ASSERT_LT(length(found[i] - expected[i]), 1e-5) << i;
+  }
+}
+
+// Without poses bodies are left out, as where hairs are made, at rest; with poses they are met.
+TEST_F(FollowMoverTest, ItsHairsMeetBodiesThatHavePoses) {
+  HeadParameters parameters{.strandCount = 40};
+  parameters.curl.particleCount = 24;
+  const Groom groom = *makeHead(parameters);
+  const double unit = groom.metresPerUnit;
+  const auto alone = FullHair::make(groom, unit, {.hairCount = 400}, followOn(device()));
+  ASSERT_TRUE(alone) << alone.error().message;
+  const Vec3d middle = Vec3d(groom.strand(0)[12]) * unit + Vec3d{0.03, -0.02, 0.02};
+  for (const Body& body : {Body{.shape = BodyShape::sphere, .radius = 0.05}, parity::gridBall(0.05, 0.005),
+                           parity::bendingBall(0.05, 0.005)}) {
+    auto hair = FullHair::make(groom, unit, {.hairCount = 400}, followOn(device()), {&body, 1});
+    ASSERT_TRUE(hair) << hair.error().message;
+    EXPECT_EQ(hair->groom().points, alone->groom().points);
+    const BodyPose pose{middle, {}};
+    ASSERT_TRUE(hair->follow({.points = groom.points, .bodies = {&pose, 1}}));
+    EXPECT_NE(hair->groom().points, alone->groom().points);
+    ASSERT_TRUE(hair->follow({.points = groom.points}));
+    EXPECT_EQ(hair->groom().points, alone->groom().points);
   }
 }
 

@@ -54,11 +54,12 @@ def test_files_are_chosen_by_name(device, scene, tmp_path):
         scene.run(device=device, folder=tmp_path / "out", files=["hair.fbx"])
 
 
-def test_full_hair_is_that_of_simulate(device, program):
-    (program.folder / "scene.toml").write_text(SWATCH)
-    program("simulate", "scene.toml", "-o", "by_program", "--untuned", "--quiet", "--hairs", "300")
+@pytest.mark.parametrize("body", ["", '[[body]]\nshape = "sphere"\nradius = 0.05\nposition = [0, -0.1, 0.02]\n'])
+def test_full_hair_is_that_of_simulate(device, program, body):
+    (program.folder / "scene.toml").write_text(SWATCH + body)
+    program("simulate", "scene.toml", "-o", "by_program", "--untuned", "--quiet", "--overwrite", "--hairs", "300")
     scene = ringlet.Scene.load(program.folder / "scene.toml")
-    scene.run(device=device, folder=program.folder / "by_module", hairs=300)
+    scene.run(device=device, folder=program.folder / "by_module", hairs=300, leftovers="overwrite")
     unit = scene.groom.metres_per_unit
     frames = [list(ringlet.AnimationReader(program.folder / by / "hair.usda")) for by in ("by_program", "by_module")]
     assert len(frames[0]) == len(frames[1]) == 8 and len(frames[0][0]) == 300 * 20

@@ -276,7 +276,7 @@ void FollowStage::record(gpu::CommandList& list, Quatd head) {
                                       .count = 0,
                                       .stride = stride_,
                                       .particles = particleCount_,
-                                      .bodyCount = bodies_.count()};
+                                      .bodyCount = bodies_.metCount()};
   if (inside_) list.copyBuffer(inside_->none, inside_->count, sizeof(layout::InsideCount));
   const std::uint32_t counts[] = {particleCount_, guideCount_, hairCount_};
   const std::uint32_t invocations[] = {particleCount_, guideCount_, hairCount_ * stride_};

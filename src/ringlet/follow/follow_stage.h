@@ -44,7 +44,7 @@ class FollowStage {
   /// particles are seen from.
   void setBodies(std::span<const BodyPose> poses, std::span<const std::vector<Vec3d>> points = {},
                  Vec3d origin = {}) {
-    bodies_.setPoses(poses, origin, points);
+    bodies_.setPoses(poses, points, origin);
   }
 
   /// Moves the hairs to the pose. `head`: how the head has turned since the rest pose. Ends with a barrier.

@@ -73,9 +73,10 @@ Status PosedBodies::makeGrids(gpu::Device& device, std::span<const Body> met) {
   return {};
 }
 
-void PosedBodies::setPoses(std::span<const BodyPose> poses, Vec3d origin,
-                           std::span<const std::vector<Vec3d>> points) {
-  RINGLET_ASSERT(poses.size() == count(), "every body has a pose");
+void PosedBodies::setPoses(std::span<const BodyPose> poses, std::span<const std::vector<Vec3d>> points,
+                           Vec3d origin) {
+  RINGLET_ASSERT(poses.empty() || poses.size() == count(), "every body has a pose");
+  metCount_ = static_cast<std::uint32_t>(poses.size());
   for (std::size_t b = 0; b < poses.size(); ++b) {
     const BodyPose& pose = poses[b];
     const Vec3d position = pose.position - origin;

@@ -32,10 +32,12 @@ class PosedBodies {
   ~PosedBodies();
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(bodies_.size()); }
-  /// One pose a body, whose positions are seen from `origin`; `points`: of each that bends, seen from what
-  /// carries it [m], or none: as before. No submission may be using them meanwhile.
-  void setPoses(std::span<const BodyPose> poses, Vec3d origin,
-                std::span<const std::vector<Vec3d>> points = {});
+  /// How many are met: all, or none where the last poses were none.
+  std::uint32_t metCount() const { return metCount_; }
+  /// One pose a body, whose positions are seen from `origin`, or none, in which case bodies are left out;
+  /// `points`: of each that bends, seen from what carries it [m], or none: as before. No submission may be
+  /// using them meanwhile.
+  void setPoses(std::span<const BodyPose> poses, std::span<const std::vector<Vec3d>> points, Vec3d origin);
   /// Makes the grids of those that bend, if their points are others than in the last commands. Ends with a
   /// barrier where it does.
   void record(gpu::CommandList& list);
@@ -49,6 +51,7 @@ class PosedBodies {
   Status makeGrids(gpu::Device& device, std::span<const Body> met);
 
   std::vector<Body> bodies_;
+  std::uint32_t metCount_ = 0;
   std::unique_ptr<Bending> bending_;  // where there are any
   gpu::Buffer poses_;
   std::optional<gpu::Buffer> rests_;
