@@ -146,8 +146,10 @@ UsdExtras usdExtrasOf(const UsdChoice& choice, const std::filesystem::path& path
       if (isText && choice.clipFrames == 0)
         throw py::value_error("velocities are written into .usdc and clips only");
       extras.velocities = true;
+    } else if (value == "unreal") {
+      extras.unreal = true;
     } else {
-      throw py::value_error(unknownName("value", value, {"id", "rest", "velocities"}));
+      throw py::value_error(unknownName("value", value, {"id", "rest", "velocities", "unreal"}));
     }
   }
   if (choice.head == "transform") {

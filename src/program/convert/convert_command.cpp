@@ -178,7 +178,10 @@ void checkOptions(const TypedConvert& typed) {
 
 UsdExtras usdExtras(const TypedConvert& typed, double metresPerUnit) {
   UsdExtras extras{
-      .ids = has(typed, "id"), .velocities = has(typed, "velocities"), .clipFrames = typed.clips.value_or(0)};
+      .ids = has(typed, "id"),
+      .velocities = has(typed, "velocities"),
+      .unreal = has(typed, "unreal"),
+      .clipFrames = typed.clips.value_or(0)};
   if (typed.tipWidth) extras.tipDiameter = static_cast<float>(*typed.tipWidth / metresPerUnit);
   return extras;
 }
@@ -360,9 +363,9 @@ void addConvertCommand(CLI::App& app, int& exitCode) {
       ->add_option(
           "--usd-values", typed->values,
           "What .usda and .usdc have beside points and widths, separated by commas: id (a number of each "
-          "strand), velocities (.usdc and clips only)")
+          "strand), velocities (.usdc and clips only), unreal (what Unreal reads of a groom)")
       ->delimiter(',')
-      ->check(oneOf({"id", "velocities"}))
+      ->check(oneOf({"id", "velocities", "unreal"}))
       ->type_name("LIST");
   command
       ->add_option(

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
@@ -50,11 +51,14 @@ enum class UsdHead {
 
 /// What a USD file may say beside points, widths and extents.
 struct UsdExtras {
-  std::optional<float> tipDiameter{};  // strands are evenly thinner from root to tip [file unit]
-  std::vector<float> widthFactors{};   // of each strand, on both diameters; empty: all 1
-  bool ids = false;                    // int[] primvars:id, a number a strand, from 0
-  bool rest = false;                   // point3f[] primvars:rest, the topology's own points
-  bool velocities = false;             // vector3f[] [file unit/s], in crates only: see usdc_writer.h
+  std::optional<float> tipDiameter{};    // strands are evenly thinner from root to tip [file unit]
+  std::vector<float> widthFactors{};     // of each strand, on both diameters; empty: all 1
+  bool ids = false;                      // int[] primvars:id, a number a strand, from 0
+  bool rest = false;                     // point3f[] primvars:rest, the topology's own points
+  bool velocities = false;               // vector3f[] [file unit/s], in crates only: see usdc_writer.h
+  bool unreal = false;                   // what Unreal's importer of grooms reads (usd_unreal.h)
+  std::vector<std::uint32_t> groupOf{};  // each strand's, for Unreal: a number of groupNames; empty: none
+  std::vector<std::string> groupNames{};
   UsdHead head = UsdHead::baked;
   int firstTimeCode = 1;  // of the first frame
   int clipFrames = 0;     // above 0: .usda has value clips of so many frames (usd_clips_writer.h)

@@ -9,6 +9,7 @@
 
 #include "ringlet/output/animation_writer.h"
 #include "ringlet/output/precision_names.h"
+#include "ringlet/scenes/load/scene_maps.h"
 
 namespace ringlet {
 namespace {
@@ -44,11 +45,16 @@ RunOptions runOptionsOf(const SceneFile& scene) {
   options.folder = scene.output.folder;
   options.up = scene.groom.up == "Z" ? UpAxis::z : UpAxis::y;
   chooseOutputs(scene.output, options);
+  for (const SceneGroup& group : scene.groups) {
+    const auto runs = parseStrands(group.strands, 1, scene.groups);
+    if (runs) options.groups.push_back({group.name, *runs});  // reading the scene has refused others
+  }
   return options;
 }
 
 bool needsOrigin(const SceneOutput& output) {
-  return output.prims == "groom" || holds(output.values, "groom");
+  return output.prims == "groom" || holds(output.values, "groom") ||
+         (holds(output.values, "unreal") && !output.hairs);
 }
 
 Status chooseOrigin(const LoadedGroom& groom, RunOptions& options) {

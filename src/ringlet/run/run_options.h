@@ -13,6 +13,7 @@
 #include "ringlet/output/up_axis.h"
 #include "ringlet/pictures/follow_mover.h"
 #include "ringlet/pictures/hair_look.h"
+#include "ringlet/rest/material.h"
 #include "ringlet/run/scene_hair.h"
 #include "ringlet/scenes/file/scene_file.h"
 #include "ringlet/scenes/load/load_scene.h"
@@ -29,6 +30,12 @@ struct RunWords {
               who = "a host of ringlet";
 };
 
+/// A named group of the scene's strands.
+struct RunGroup {
+  std::string name;
+  std::vector<StrandRun> runs;
+};
+
 struct RunOptions {
   std::filesystem::path folder{};                // for the results; empty: nothing is written
   std::vector<std::string> animations{".usda"};  // endings of the hair.* files, without the cache
@@ -38,6 +45,7 @@ struct RunOptions {
   double width = 0.0005;              // diameter of strands in written files [m]
   std::optional<double> tipWidth{};   // at the tip, in USD files [m]
   std::vector<std::string> values{};  // further values in written files, as in SceneOutput
+  std::vector<RunGroup> groups{};     // for the values of Unreal
   int hairs = 0;                      // above 0: animations contain this many hairs, which follow the
                                       // strands, in place of these
   HairLook look{};                    // of following hairs

@@ -64,11 +64,13 @@ UsdExtras RunWriters::usdExtras() const {
   UsdExtras extras{.ids = has("id"),
                    .rest = has("rest"),
                    .velocities = has("velocities"),
+                   .unreal = has("unreal"),
                    .head = options_.usdHead,
                    .clipFrames = options_.clipFrames,
                    .origin = options_.origin,
                    .originValues = has("groom"),
                    .originPrims = options_.usesGroomPrims};
+  if (extras.unreal) addGroups(extras);
   extras.widthFactors.assign(scene_.widthFactors.begin(), scene_.widthFactors.end());
   if (hairs_ && !extras.widthFactors.empty()) {
     extras.widthFactors.clear();
@@ -78,6 +80,26 @@ UsdExtras RunWriters::usdExtras() const {
   if (options_.tipWidth)
     extras.tipDiameter = static_cast<float>(*options_.tipWidth / scene_.groom.metresPerUnit);
   return extras;
+}
+
+// Each strand is of the first group that has it; those of none are one group more.
+void RunWriters::addGroups(UsdExtras& extras) const {
+  if (options_.groups.empty()) return;
+  std::vector<std::uint32_t> groupOf(scene_.groom.strandCount(),
+                                     static_cast<std::uint32_t>(options_.groups.size()));
+  for (std::size_t g = options_.groups.size(); g-- > 0;) {
+    for (const StrandRun& run : options_.groups[g].runs) {
+      for (std::size_t s = run.first; s <= run.last && s < groupOf.size(); ++s)
+        groupOf[s] = static_cast<std::uint32_t>(g);
+    }
+  }
+  for (const RunGroup& group : options_.groups) extras.groupNames.push_back(group.name);
+  extras.groupNames.emplace_back("others");
+  if (!hairs_) {
+    extras.groupOf = std::move(groupOf);
+    return;
+  }
+  for (const std::uint32_t strand : hairs_->strandOf()) extras.groupOf.push_back(groupOf[strand]);
 }
 
 Status RunWriters::addFrame(int frame, std::vector<Vec3f> points, const HeadPose& head,

@@ -49,6 +49,7 @@ class RunWriters {
  private:
   Status open();
   UsdExtras usdExtras() const;
+  void addGroups(UsdExtras& extras) const;
 
   const LoadedScene& scene_;
   const RunOptions& options_;

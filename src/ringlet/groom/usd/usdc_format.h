@@ -48,10 +48,13 @@ enum class SpecType : std::uint32_t { attribute = 1, prim = 6, root = 7, relatio
 // Types of values that are no numbers or texts, or are named in the code.
 inline constexpr std::uint32_t kBoolType = 1, kIntType = 3, kFloatType = 8, kDoubleType = 9, kStringType = 10,
                                kTokenType = 11, kMatrix4dType = 15, kHalf2Type = 21, kVec3fType = 24,
-                               kDictionaryType = 31, kPathListType = 34, kTokenVectorType = 41,
+                               kDictionaryType = 31, kTokenListType = 32, kPathListType = 34, kTokenVectorType = 41,
                                kSpecifierType = 42, kVariabilityType = 44, kVariantMapType = 45,
                                kSamplesType = 46, kDoubleVectorType = 48, kStringVectorType = 50,
                                kBlockType = 51;
+
+/// Of a list that changes another: which of its parts there are.
+inline constexpr std::byte kPrependedItems{32};
 
 /// A type of values: numbers of one kind, so many an element; or texts.
 enum class Kind : std::uint8_t { none, boolean, u8, i32, u32, i64, u64, half, f32, f64, token, string };

@@ -150,14 +150,15 @@ Status UsdClipsWriter::writeTop(const fs::path& as) const {
       "\"{}\"\n)\n\n",
       UsdWriter::kBegin, last, options_.metresPerUnit, first, options_.framesPerSecond,
       options_.up == UpAxis::y ? 'Y' : 'Z');
+  const UsdStagePrim& prim = made.stage.prims.front();
   text += fmt::format(
-      "def BasisCurves \"Hair\" (\n    clips = {{\n        dictionary default = {{\n"
+      "def BasisCurves \"Hair\" (\n{}    clips = {{\n        dictionary default = {{\n"
       "            double2[] active = [{}]\n            asset[] assetPaths = [{}]\n"
       "            asset manifestAssetPath = @./{}@\n            string primPath = \"/Hair\"\n"
       "            double2[] times = [({}, {}), ({}, {})]\n        }}\n    }}\n)\n{{\n",
-      active, paths, (folderOf(path_) / kManifest).lexically_relative(path_.parent_path()).string(), first,
-      first, std::max(first, last), std::max(first, last));
-  const UsdStagePrim& prim = made.stage.prims.front();
+      usdTextOf(prim.apiSchemas, 4), active, paths,
+      (folderOf(path_) / kManifest).lexically_relative(path_.parent_path()).string(), first, first,
+      std::max(first, last), std::max(first, last));
   for (const UsdStageAttribute& attribute : prim.attributes) {
     if (attribute.elementsOfSample == 0) text += usdTextOf(attribute, 4);
   }

@@ -7,6 +7,7 @@
 
 #include "ringlet/base/assert.h"
 #include "ringlet/output/usd/usd_carried.h"
+#include "ringlet/output/usd/usd_unreal.h"
 
 namespace ringlet {
 namespace {
@@ -159,6 +160,7 @@ void addOriginPrims(const Groom& topology, const AnimationOptions& options, Hair
     over.type = "BasisCurves";
     over.attributes =
         attributesOf(topology, curves, options, !(statesWidths && prim.isWhole), std::move(carried));
+    if (options.usd.unreal) addUnreal(topology, curves, options.usd, carriedValues({prim}), over);
     curves.margin = marginOf(over.attributes, static_cast<float>(options.diameter / curves.unit));
     made.curves.push_back(std::move(curves));
   }
@@ -184,12 +186,14 @@ HairStage hairStageOf(const Groom& topology, const AnimationOptions& options) {
     return made;
   }
   HairCurves curves{"/Hair", 0, static_cast<std::uint32_t>(topology.strandCount()), 1, {}, 0};
-  std::vector<UsdStageAttribute> carried;
-  if (usd.originValues && usd.origin) carried = carriedValues(usd.origin->prims);
-  made.stage.prims = {{.name = "Hair",
-                       .type = "BasisCurves",
-                       .attributes = attributesOf(topology, curves, options, true, std::move(carried))}};
-  curves.margin = marginOf(made.stage.prims.front().attributes, options.diameter);
+  std::vector<UsdStageAttribute> said;
+  if (usd.origin) said = carriedValues(usd.origin->prims);
+  UsdStagePrim prim{.name = "Hair", .type = "BasisCurves"};
+  prim.attributes = attributesOf(topology, curves, options, true,
+                                 usd.originValues ? said : std::vector<UsdStageAttribute>{});
+  if (usd.unreal) addUnreal(topology, curves, usd, said, prim);
+  curves.margin = marginOf(prim.attributes, options.diameter);
+  made.stage.prims.push_back(std::move(prim));
   made.curves.push_back(std::move(curves));
   return made;
 }

@@ -27,6 +27,7 @@ struct UsdStageAttribute {
 struct UsdStagePrim {
   std::string name, type;
   bool isOver = false;                          // it changes a prim of another layer
+  std::vector<std::string> apiSchemas{};        // that are applied to it, before those of other layers
   std::vector<UsdStageAttribute> attributes{};  // text and crates have them in this order
   std::vector<UsdStagePrim> children{};
 };

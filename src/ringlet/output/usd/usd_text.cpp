@@ -76,6 +76,13 @@ std::string usdTextOf(const UsdStageAttribute& attribute, std::size_t indent) {
   return text + '\n';
 }
 
+std::string usdTextOf(const std::vector<std::string>& apiSchemas, std::size_t indent) {
+  if (apiSchemas.empty()) return "";
+  std::string list;
+  for (const std::string& schema : apiSchemas) list += (list.empty() ? "" : ", ") + quotedText(schema);
+  return fmt::format("{}prepend apiSchemas = [{}]\n", std::string(indent, ' '), list);
+}
+
 std::string usdTextOf(const UsdTransform& transform) {
   std::string text = "( ";
   for (const Vec3d row : transform.rows)

@@ -12,6 +12,9 @@ namespace ringlet {
 /// shortest that read back as the same, whatever the locale. `indent`: blanks before it.
 std::string usdTextOf(const UsdStageAttribute& attribute, std::size_t indent);
 
+/// "    prepend apiSchemas = ["GroomAPI"]", a line; nothing for none.
+std::string usdTextOf(const std::vector<std::string>& apiSchemas, std::size_t indent);
+
 /// "( (1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1) )".
 std::string usdTextOf(const UsdTransform& transform);
 

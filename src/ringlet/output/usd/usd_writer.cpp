@@ -120,8 +120,10 @@ std::string UsdWriter::headerText(const Groom& topology) {
   const HairStage made = hairStageOf(topology, options_);
   const HairCurves& curves = made.curves.front();
   margin_ = curves.margin;
-  text += "def BasisCurves \"Hair\"\n{\n";
-  for (const UsdStageAttribute& attribute : made.stage.prims.front().attributes)
+  const UsdStagePrim& prim = made.stage.prims.front();
+  text += fmt::format("def BasisCurves \"Hair\"{}\n{{\n",
+                      prim.apiSchemas.empty() ? "" : " (\n" + usdTextOf(prim.apiSchemas, 4) + ")");
+  for (const UsdStageAttribute& attribute : prim.attributes)
     if (attribute.elementsOfSample == 0) text += usdTextOf(attribute, 4);
 
   // Room for the head's transforms and the extents, and the points opened.

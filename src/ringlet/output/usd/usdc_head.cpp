@@ -110,6 +110,14 @@ class HeadMaker {
     return rep;
   }
 
+  Rep prepended(const std::vector<std::string>& tokens) {
+    const Rep rep = Rep::at(kTokenListType, place());
+    head_.bytes.push_back(kPrependedItems);
+    appendU64(head_.bytes, tokens.size());
+    for (const std::string& each : tokens) appendU32(head_.bytes, static_cast<std::uint32_t>(tokenOf(each)));
+    return rep;
+  }
+
   Rep valueOf(const UsdStageAttribute& attribute, UsdStageType type) {
     const bool isText = type.kind() == Kind::token || type.kind() == Kind::string;
     const std::size_t count = isText ? attribute.texts.size() : attribute.numbers.size() / type.width();
@@ -190,6 +198,7 @@ class HeadMaker {
     const std::string path = above + "/" + prim.name;
     Fields fields{{"specifier", Rep::inlined(kSpecifierType, prim.isOver ? 1 : 0)}};
     if (!prim.type.empty()) fields.push_back({"typeName", token(prim.type)});
+    if (!prim.apiSchemas.empty()) fields.push_back({"apiSchemas", prepended(prim.apiSchemas)});
     if (!prim.attributes.empty()) fields.push_back({"properties", nameVector(prim.attributes)});
     if (!prim.children.empty()) fields.push_back({"primChildren", nameVector(prim.children)});
     addPath(tokenOf(prim.name), fields, SpecType::prim);

@@ -748,10 +748,10 @@ std::span<const SceneField<SceneOutput>> outputFields() {
        "none",
        "What USD files have beside points and widths: a number of each strand, its rest positions, "
        "velocities (hair.usdc and clips only), what a USD groom says of its curves (widths, ids, colours and "
-       "other primvars).",
+       "other primvars), what Unreal reads of a groom (docs/unreal.md).",
        &O::values,
        {},
-       "id, rest, velocities, groom"},
+       "id, rest, velocities, groom, unreal"},
       {"head",
        "",
        "",
