@@ -6,13 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 #include <system_error>
 
-#include "ringlet/base/is_below.h"
 #include "ringlet/base/whole_file.h"
 #include "ringlet/motion/gltf_bytes.h"
+#include "ringlet/motion/name_below.h"
 
 namespace ringlet {
 namespace {
@@ -24,31 +23,6 @@ std::optional<int> digitOf(char c) {
   if (c >= 'a' && c <= 'f') return c - 'a' + 10;
   if (c >= 'A' && c <= 'F') return c - 'A' + 10;
   return std::nullopt;
-}
-
-// "http:", "file:", "C:"
-bool hasScheme(std::string_view name) {
-  const std::size_t colon = name.find_first_of(":/");
-  return colon != std::string_view::npos && name[colon] == ':' && colon > 0 &&
-         std::isalpha(static_cast<unsigned char>(name[0])) != 0 &&
-         std::ranges::all_of(name.substr(0, colon), [](char c) {
-           return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '+' || c == '-' || c == '.';
-         });
-}
-
-// Why a buffer's file is not read; empty where it may be.
-std::string refusalOf(const std::string& name, const std::filesystem::path& folder) {
-  if (name.empty()) return "has no name";
-  if (name.find('\0') != name.npos) return "holds a NUL";
-  if (name.find('\\') != name.npos) return "has a backslash, where glTF has /";
-  if (hasScheme(name)) return "is an address, and only files are read";
-  if (std::filesystem::path(name).is_absolute()) return "is absolute";
-  const std::filesystem::path plain = std::filesystem::path(name).lexically_normal();
-  if (*plain.begin() == "..") return "leads out of the folder of the glTF file";
-  std::error_code code;
-  // Where the folder is not there, neither is the file: its reader says so.
-  if (!std::filesystem::exists(folder.empty() ? "." : folder, code)) return "";
-  return isBelow(folder / name, folder) ? "" : "leads out of the folder of the glTF file by a symbolic link";
 }
 
 // All of a file's text but its buffers is dropped.
@@ -81,7 +55,7 @@ Result<std::vector<GltfBuffer>> gltfBuffersOf(std::string_view text, const std::
     const auto& uri = found[b]["uri"].get_ref<const std::string&>();
     if (uri.empty() || uri.starts_with("data:")) continue;
     const std::string name = decodedUri(uri);
-    if (const std::string refusal = refusalOf(name, folder); !refusal.empty()) {
+    if (const std::string refusal = whyNotBelow(name, folder, "glTF"); !refusal.empty()) {
       return Error{fmt::format(
           "buffer {}: the file {} {}; buffers are read from the folder of the glTF file and below it, and "
           "from nowhere else",

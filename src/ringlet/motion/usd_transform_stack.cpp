@@ -8,27 +8,9 @@
 #include <utility>
 
 #include "ringlet/groom/usd/usd_transform.h"
+#include "ringlet/motion/usd_value_at.h"
 
 namespace ringlet {
-namespace {
-
-// What an op's samples say at a time: straight between numbers, of quaternions the shorter way.
-UsdValue valueAt(const std::vector<UsdSample>& samples, double time) {
-  const auto after = std::ranges::upper_bound(samples, time, {}, &UsdSample::time);
-  if (after == samples.begin()) return samples.front().value;
-  const UsdSample& a = *(after - 1);
-  if (after == samples.end() || a.value.numbers.size() != after->value.numbers.size()) return a.value;
-  UsdValue value = a.value;
-  const double share = (time - a.time) / (after->time - a.time);
-  double alike = 0;
-  for (std::size_t k = 0; k < value.numbers.size(); ++k) alike += value.numbers[k] * after->value.numbers[k];
-  const double sign = value.numbers.size() == 4 && alike < 0 ? -1 : 1;
-  for (std::size_t k = 0; k < value.numbers.size(); ++k)
-    value.numbers[k] += (sign * after->value.numbers[k] - value.numbers[k]) * share;
-  return value;
-}
-
-}  // namespace
 
 Result<UsdTransformStack> UsdTransformStack::of(const UsdPrims& prims, std::uint32_t prim) {
   UsdTransformStack stack(prims, prim);
@@ -50,7 +32,7 @@ Result<UsdTransform> UsdTransformStack::transformAt(double time) const {
     UsdPrim now{.name = ops.name, .type = ops.type, .composedBy = {}, .attributes = {}};
     for (const UsdAttribute& op : ops.attributes)
       now.attributes.push_back({.name = op.name,
-                                .value = op.samples.empty() ? op.value : valueAt(op.samples, time),
+                                .value = op.samples.empty() ? op.value : usdValueAt(op.samples, time),
                                 .drivenBy = op.drivenBy});
     const auto placement = usdPlacementOf(now);
     if (!placement)
