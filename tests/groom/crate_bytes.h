@@ -97,6 +97,36 @@ class CrateBytes {
     for (std::size_t i = 0; i < count; ++i) append(values_, std::uint32_t{0});
     return Rep{type} << 48 | at;
   }
+  /// Assets, as a value and as an array.
+  Rep asset(const std::string& path) { return inlined(12, tokenIndex(path)); }
+  Rep assets(const std::vector<std::string>& paths) {
+    std::vector<std::uint32_t> indices;
+    for (const std::string& path : paths) indices.push_back(tokenIndex(path));
+    return array(12, indices);
+  }
+  /// Entries of a name and a value.
+  Rep dictionary(const Fields& entries) {
+    for (const auto& [name, value] : entries) string(name);
+    const auto first = static_cast<std::uint32_t>(strings_.size() - entries.size());
+    const Rep at = place();
+    append(values_, std::uint64_t{entries.size()});
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+      append(values_, static_cast<std::uint32_t>(first + k));
+      append(values_, std::uint64_t{8});
+      append(values_, entries[k].second);
+    }
+    return Rep{31} << 48 | at;
+  }
+  /// A list of names that is explicit, or that puts some before others (bit 32), deletes some (8) ...
+  Rep stringList(const std::vector<std::string>& names, char bits = '\3') {
+    for (const std::string& name : names) string(name);
+    const auto first = static_cast<std::uint32_t>(strings_.size() - names.size());
+    const Rep at = place();
+    values_ += bits;
+    append(values_, std::uint64_t{names.size()});
+    for (std::size_t k = 0; k < names.size(); ++k) append(values_, static_cast<std::uint32_t>(first + k));
+    return Rep{33} << 48 | at;
+  }
   /// A list of paths that are there already, explicit or one that is put before others.
   Rep pathList(const std::vector<std::string>& paths, bool isPrepended = false) {
     const Rep at = place();

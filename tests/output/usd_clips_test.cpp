@@ -94,6 +94,17 @@ TEST(UsdClips, EveryFrameIsInItsClip) {
         "int[] primvars:id = [0, 1]", "\n    point3f[] points\n", "\n    float3[] extent\n",
         "\n    vector3f[] velocities\n"})
     EXPECT_NE(top.find(part), std::string::npos) << part << " is missing in\n" << top;
+  const auto clipped = readUsda(top, "top", UsdContent::meshes);
+  ASSERT_TRUE(clipped) << clipped.error().message;
+  ASSERT_EQ(clipped->prims.front().clips.size(), 1u);
+  std::map<std::string_view, UsdValue> entries;
+  for (const UsdEntry& entry : clipped->prims.front().clips.front().entries) entries[entry.key] = entry.value;
+  EXPECT_EQ(entries["active"].numbers, (std::vector<double>{1, 0, 5, 1, 9, 2}));
+  EXPECT_EQ(entries["times"].numbers, (std::vector<double>{1, 1, 10, 10}));
+  EXPECT_EQ(entries["assetPaths"].texts,
+            (std::vector<std::string_view>{"./hair_clips/hair.0001.usdc", "./hair_clips/hair.0002.usdc",
+                                           "./hair_clips/hair.0003.usdc"}));
+  EXPECT_EQ(entries["primPath"].texts, (std::vector<std::string_view>{"/Hair"}));
   const std::string manifest = readText(path.parent_path() / "hair_clips" / "manifest.usda");
   for (const std::string& text : {top, manifest}) {
     const auto layer = readUsda(text, "text");

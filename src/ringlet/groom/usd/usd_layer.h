@@ -16,6 +16,7 @@ namespace ringlet {
 inline constexpr std::uint32_t kNoUsdPrim = 0xffffffff;
 inline constexpr std::size_t kDeepestUsdPrim = 256;     // levels; files of people have ten
 inline constexpr std::size_t kMostUsdAttributes = 256;  // of a prim, of those that are kept
+inline constexpr std::size_t kMostUsdEntries = 256;     // of a dictionary of metadata
 
 /// A value: numbers, or texts (strings and tokens).
 struct UsdValue {
@@ -50,6 +51,26 @@ struct UsdAttribute {
   std::string_view drivenBy{};               // "a connection" or "a spline"; empty for neither
 };
 
+/// An entry of a dictionary: a value, or a dictionary, of which nothing is kept.
+struct UsdEntry {
+  std::string_view key{};
+  UsdValue value{};
+  bool isDictionary = false;
+};
+
+/// A clip set, as the metadata `clips` of a prim have it.
+struct UsdClipSet {
+  std::string_view name{};
+  std::vector<UsdEntry> entries{};
+  bool isDictionary = true;
+};
+
+/// A change of the order in which clip sets count: "prepend", "delete" ..., "" for a whole list in its place.
+struct UsdNameEdit {
+  std::string_view edit{};
+  std::vector<std::string_view> names{};
+};
+
 enum class UsdSpecifier { def, over, abstract };  // abstract: a class
 
 struct UsdPrim {
@@ -60,6 +81,8 @@ struct UsdPrim {
   std::string_view composedBy;           // the first field that brings in other prims: "references" ...
   std::string_view deformedBy{};         // the first property that isUsdDeformation() names
   std::vector<UsdAttribute> attributes;  // those that isKeptUsdAttribute() and ...Relationship() name
+  std::vector<UsdClipSet> clips{};       // of meshes; strands have them in composedBy
+  std::vector<UsdNameEdit> clipSets{};
 };
 
 struct UsdLayer {
@@ -80,17 +103,20 @@ inline bool isUsdValue(std::string_view name) {
 /// What of a file is kept: of strands their first samples; of meshes all.
 enum class UsdContent { strands, strandsAndValues, meshes };
 
-/// Whether a mesh that moves needs it: its points and faces, and what deforms it (motion/usd_skin.h).
+/// Whether a mesh that moves needs it: its points and faces, and what deforms it (motion/usd_skin.h). A prim
+/// without a type, as clips have them, may be of any.
 inline bool isUsdMeshAttribute(std::string_view primType, std::string_view name) {
+  const auto mayBe = [&](std::string_view type) { return primType == type || primType.empty(); };
   if (name.starts_with("primvars:skel:") || name == "skel:joints") return true;
-  if (primType == "Mesh")
-    return name == "points" || name == "faceVertexCounts" || name == "faceVertexIndices" ||
-           name == "orientation" || name == "subdivisionScheme" || name == "skel:blendShapes";
-  if (primType == "Skeleton") return name == "joints" || name == "bindTransforms" || name == "restTransforms";
-  if (primType == "SkelAnimation")
-    return name == "joints" || name == "translations" || name == "rotations" || name == "scales" ||
-           name == "blendShapes" || name == "blendShapeWeights";
-  return primType == "BlendShape" &&
+  if (mayBe("Mesh") && (name == "points" || name == "faceVertexCounts" || name == "faceVertexIndices" ||
+                        name == "orientation" || name == "subdivisionScheme" || name == "skel:blendShapes"))
+    return true;
+  if (mayBe("Skeleton") && (name == "joints" || name == "bindTransforms" || name == "restTransforms"))
+    return true;
+  if (mayBe("SkelAnimation") && (name == "joints" || name == "translations" || name == "rotations" ||
+                                 name == "scales" || name == "blendShapes" || name == "blendShapeWeights"))
+    return true;
+  return mayBe("BlendShape") &&
          (name == "offsets" || name == "pointIndices" || name.starts_with("inbetweens:"));
 }
 

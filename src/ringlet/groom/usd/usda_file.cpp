@@ -384,10 +384,62 @@ class UsdaReader {
         prim.isActive = *number != 0;
         return {};
       }
+      if (content_ == UsdContent::meshes && key == "clips") return readClips(prim.clips);
+      if (content_ == UsdContent::meshes && key == "clipSets") return readNames(edit, prim.clipSets);
       if (holds(kComposing, key)) return noteComposition(edit, key, prim.composedBy);
       const auto skipped = skipValue();
       return skipped ? Status{} : Status{skipped.error()};
     });
+  }
+
+  // { type key = value ... }; `take` reads the value. A dictionary has at most kMostUsdEntries.
+  template <class Take>
+  Status readDictionary(Take take) {
+    if (!accept('{')) return wanted("'{'");
+    for (std::size_t count = 0; !accept('}');) {
+      if (accept(';') || accept(',')) continue;
+      if (++count > kMostUsdEntries)
+        return wanted(fmt::format("at most {} entries of a dictionary", kMostUsdEntries));
+      if (takeName().empty()) return wanted("the type of an entry, or '}'");
+      if (accept('[') && !accept(']')) return wanted("']'");
+      auto key = takeKey();
+      if (!key) return key.error();
+      if (!accept('=')) return wanted("'='");
+      if (Status taken = take(*key); !taken) return taken;
+    }
+    return {};
+  }
+  Result<std::string_view> takeKey() {
+    const char c = peek();
+    if (c == '"' || c == '\'') return takeDelimited();
+    const std::string_view key = takeName();
+    if (key.empty()) return wanted("the name of an entry");
+    return key;
+  }
+
+  Status readClips(std::vector<UsdClipSet>& sets) {
+    if (peek() != '{') return skipped();  // None
+    return readDictionary([&](std::string_view name) -> Status {
+      UsdClipSet& set = sets.emplace_back(UsdClipSet{.name = name});
+      set.isDictionary = peek() == '{';
+      if (!set.isDictionary) return skipped();
+      return readDictionary([&](std::string_view key) -> Status {
+        UsdEntry& entry = set.entries.emplace_back(UsdEntry{.key = key});
+        entry.isDictionary = peek() == '{';
+        return entry.isDictionary ? skipped() : readValue(entry.value);
+      });
+    });
+  }
+  Status skipped() {
+    const auto done = skipValue();
+    return done ? Status{} : Status{done.error()};
+  }
+
+  Status readNames(std::string_view edit, std::vector<UsdNameEdit>& edits) {
+    UsdValue value;
+    if (Status read = readValue(value); !read) return read;
+    edits.push_back({edit, std::move(value.texts)});
+    return {};
   }
 
   // Prims and properties, down and up again, to the end of the file.

@@ -41,7 +41,9 @@ enum class Field : std::uint8_t {
   targets,
   spline,
   interpolation,
-  composing
+  composing,
+  clips,
+  clipSets
 };
 constexpr std::pair<std::string_view, Field> kFields[] = {{"specifier", Field::specifier},
                                                           {"typeName", Field::typeName},
@@ -65,7 +67,8 @@ constexpr std::pair<std::string_view, Field> kFields[] = {{"specifier", Field::s
                                                           {"specializes", Field::composing},
                                                           {"variantSetNames", Field::composing},
                                                           {"variantSelection", Field::composing},
-                                                          {"clips", Field::composing}};
+                                                          {"clips", Field::clips},
+                                                          {"clipSets", Field::clipSets}};
 
 struct Child {
   std::uint32_t parent, token, path;
@@ -200,9 +203,10 @@ class CrateReader {
         auto number = values_.numberOf(field.rep);
         if (!number) return number.error();
         prim.isActive = *number != 0;
-      } else if (meaningOf(field) == Field::composing && values_.isFilled(field.rep) &&
-                 prim.composedBy.empty()) {
+      } else if (isComposing(field) && values_.isFilled(field.rep) && prim.composedBy.empty()) {
         prim.composedBy = crate_.tokens()[field.token];
+      } else if (reading_.content == UsdContent::meshes) {
+        return readClips(field, prim);
       }
       return {};
     });
@@ -267,6 +271,35 @@ class CrateReader {
       }
       return {};
     });
+  }
+
+  // Clips bring in other files; only who reads meshes follows them.
+  bool isComposing(const NamedField& field) const {
+    return meaningOf(field) == Field::composing ||
+           (meaningOf(field) == Field::clips && reading_.content != UsdContent::meshes);
+  }
+
+  Status readClips(const NamedField& field, UsdPrim& prim) {
+    if (meaningOf(field) == Field::clips)
+      return values_.readDictionary(field.rep, [&](std::string_view name, Rep rep) -> Status {
+        UsdClipSet& set = prim.clips.emplace_back(UsdClipSet{.name = name});
+        set.isDictionary = rep.type() == kDictionaryType;
+        if (!set.isDictionary) return {};
+        return values_.readDictionary(rep, [&](std::string_view key, Rep value) -> Status {
+          UsdEntry& entry = set.entries.emplace_back(UsdEntry{.key = key});
+          entry.isDictionary = value.type() == kDictionaryType;
+          return entry.isDictionary ? Status{} : takeEntry(value, entry.value);
+        });
+      });
+    return meaningOf(field) == Field::clipSets ? values_.readNameEdits(field.rep, prim.clipSets) : Status{};
+  }
+  // A value of a kind that no clip set has is none.
+  Status takeEntry(Rep rep, UsdValue& value) {
+    if (!CrateValues::isRead(rep)) return {};
+    auto read = values_.valueOf(rep.type() == kAssetType ? rep.asType(kTokenType) : rep);
+    if (!read) return read.error();
+    value = std::move(*read);
+    return {};
   }
 
   // Of a relationship or an attribute of any type, whose values are not looked at.

@@ -18,6 +18,10 @@
 //   packed, five that are 0, 8 of type, 48 of payload: the value itself, or where it begins.
 //
 //   array         u64 count, the elements; u32 before 0.7.0, and before 0.5.0 u32 1 in front
+//   dictionary    u64 count; each u32 string, i64 8, u64 value, where values inside stand before theirs: as
+//   of time
+//                 samples, the 8 says how far on
+//   list of names as of paths, with u32 string in place of path
 //   list of paths u8 of which lists there are (usdc_values.cpp); each u64 count, u32 path[count]
 //   time samples  i64 8, the value of the times (a vector of doubles); i64 8, u64 count, u64 value[count].
 //                 The 8 is how far on that stands which is meant; readers follow it, from its own place
@@ -47,8 +51,9 @@ enum class SpecType : std::uint32_t { attribute = 1, prim = 6, root = 7, relatio
 
 // Types of values that are no numbers or texts, or are named in the code.
 inline constexpr std::uint32_t kBoolType = 1, kIntType = 3, kFloatType = 8, kDoubleType = 9, kStringType = 10,
-                               kTokenType = 11, kMatrix4dType = 15, kHalf2Type = 21, kVec3fType = 24,
-                               kDictionaryType = 31, kTokenListType = 32, kPathListType = 34, kTokenVectorType = 41,
+                               kTokenType = 11, kAssetType = 12, kMatrix4dType = 15, kHalf2Type = 21,
+                               kVec3fType = 24, kDictionaryType = 31, kTokenListType = 32,
+                               kStringListType = 33, kPathListType = 34, kTokenVectorType = 41,
                                kSpecifierType = 42, kVariabilityType = 44, kVariantMapType = 45,
                                kSamplesType = 46, kDoubleVectorType = 48, kStringVectorType = 50,
                                kBlockType = 51;
@@ -125,6 +130,9 @@ struct Rep {
   std::uint32_t type() const { return static_cast<std::uint32_t>(bits >> 48 & 255); }
   std::uint64_t payload() const { return bits & 0xffffffffffff; }
   std::uint32_t low() const { return static_cast<std::uint32_t>(bits); }
+  Rep asType(std::uint32_t type) const {
+    return {(bits & ~(std::uint64_t{255} << 48)) | std::uint64_t{type} << 48};
+  }
 
   static constexpr Rep inlined(std::uint32_t type, std::uint32_t value) {
     return {std::uint64_t{1} << 62 | std::uint64_t{type} << 48 | value};

@@ -17,6 +17,8 @@ namespace {
 // Bounds on what a file unpacks to, of its size: equal values are stored once, so that a file may have more
 // numbers than bytes.
 constexpr std::size_t kNumbersPerByte = 16, kFreeNumbers = 1 << 16;
+// Entries of dictionaries and names in lists, likewise.
+constexpr std::size_t kEntriesPerByte = 1, kFreeEntries = 1 << 10;
 
 }  // namespace
 
@@ -233,6 +235,65 @@ Status CrateValues::readSamples(Rep rep, std::uint64_t mostElements, Kept kept, 
     attribute.time = timeAt(i);
     attribute.value = std::move(*value);
     if (!isEmpty || !mayBeginEmpty(attribute.name)) break;
+  }
+  return {};
+}
+
+bool CrateValues::isRead(Rep rep) {
+  return rep.isKnown() && (rep.type() == kBlockType || rep.type() == kAssetType ||
+                           (rep.type() < kTypes.size() && kTypes[rep.type()].kind != Kind::none));
+}
+
+// How many entries it has.
+Result<std::uint64_t> CrateValues::beginDictionary(Rep rep) {
+  if (rep.type() != kDictionaryType || !rep.isKnown())
+    return crate_.wrong(rep.payload(), fmt::format("a value of type {}", rep.type()), "a dictionary");
+  if (rep.isInline()) return std::uint64_t{0};
+  if (!crate_.has(rep.payload(), 8)) return crate_.ended(rep.payload(), "a dictionary");
+  const std::uint64_t count = readU64(crate_.bytes(), rep.payload());
+  if (count > kMostUsdEntries)
+    return crate_.wrong(rep.payload(), fmt::format("a dictionary of {} entries", count),
+                        fmt::format("at most {}", kMostUsdEntries));
+  const std::uint64_t most = crate_.mostOf(kEntriesPerByte, kFreeEntries);
+  if (count > most - entriesRead_)
+    return crate_.wrong(rep.payload(), fmt::format("{} more entries of dictionaries", count),
+                        fmt::format("at most {} in so small a file", most));
+  entriesRead_ += count;
+  return count;
+}
+
+Result<CrateValues::Entry> CrateValues::entryAt(std::uint64_t at) const {
+  if (!crate_.has(at, 4)) return crate_.ended(at, "an entry of a dictionary");
+  const auto key = crate_.textOf(Kind::string, readU32(crate_.bytes(), at));
+  if (!key) return key.error();
+  const auto value = placeAfter(at + 4);
+  if (!value) return value.error();
+  return Entry{*key, {readU64(crate_.bytes(), *value)}, *value + 8};
+}
+
+Status CrateValues::readNameEdits(Rep rep, std::vector<UsdNameEdit>& edits) {
+  std::uint64_t at = rep.payload();
+  if (rep.type() != kStringListType || !crate_.has(at, 1)) return crate_.wrong(at, "no list of names", "one");
+  const unsigned lists = std::to_integer<unsigned>(crate_.bytes()[at++]);
+  constexpr std::pair<unsigned, std::string_view> kLists[] = {{2, ""},        {4, "add"},    {32, "prepend"},
+                                                              {64, "append"}, {8, "delete"}, {16, "reorder"}};
+  if ((lists & 3) == 1) edits.emplace_back();  // explicit, and empty
+  for (const auto& [bit, edit] : kLists) {
+    if ((lists & bit) == 0) continue;
+    if (!crate_.has(at, 8)) return crate_.ended(at, "a list of names");
+    const std::uint64_t count = readU64(crate_.bytes(), at);
+    at += 8;
+    if (count > kMostUsdEntries || !crate_.has(at, 4 * count))
+      return crate_.ended(at, fmt::format("{} names", count));
+    if (count > crate_.mostOf(kEntriesPerByte, kFreeEntries) - entriesRead_)
+      return crate_.wrong(at, fmt::format("{} more names", count), "fewer in so small a file");
+    entriesRead_ += count;
+    UsdNameEdit& names = edits.emplace_back(UsdNameEdit{.edit = edit});
+    for (std::uint64_t k = 0; k < count; ++k, at += 4) {
+      const auto name = crate_.textOf(Kind::string, readU32(crate_.bytes(), at));
+      if (!name) return name.error();
+      names.names.push_back(*name);
+    }
   }
   return {};
 }

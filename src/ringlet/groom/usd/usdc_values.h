@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "ringlet/base/result.h"
 #include "ringlet/groom/usd/usd_layer.h"
@@ -27,10 +28,36 @@ class CrateValues {
   enum class Kept { first, all, places };
   Status readSamples(Rep rep, std::uint64_t mostElements, Kept kept, UsdAttribute& attribute);
 
+  /// Whether valueOf() knows values of this type; an asset is a token.
+  static bool isRead(Rep rep);
+  /// Calls take(key, value) for each entry, until one fails. Errors: no dictionary; one of more entries than
+  /// kMostUsdEntries; more of all than the file's size allows.
+  template <class Take>
+  Status readDictionary(Rep rep, Take take) {
+    auto left = beginDictionary(rep);
+    if (!left) return left.error();
+    for (std::uint64_t at = rep.payload() + 8; *left > 0; --*left) {
+      const auto entry = entryAt(at);
+      if (!entry) return entry.error();
+      if (Status taken = take(entry->key, entry->value); !taken) return taken;
+      at = entry->end;
+    }
+    return {};
+  }
+  /// The lists of a list of names, in the order in which they count.
+  Status readNameEdits(Rep rep, std::vector<UsdNameEdit>& edits);
+
   /// Whether a list of changes, a dictionary or a list of names holds something. What we do not know does.
   bool isFilled(Rep rep) const;
 
  private:
+  struct Entry {
+    std::string_view key{};
+    Rep value{};
+    std::uint64_t end = 0;  // where the next begins
+  };
+  Result<std::uint64_t> beginDictionary(Rep rep);
+  Result<Entry> entryAt(std::uint64_t at) const;
   double numberAt(Kind kind, std::uint64_t at) const;
   Result<Type> typeOf(Rep rep) const;
   Status readInline(Rep rep, const Type& type, UsdValue& value);
@@ -39,7 +66,7 @@ class CrateValues {
   Result<std::uint64_t> placeAfter(std::uint64_t at) const;
 
   const CrateStructure& crate_;
-  std::uint64_t numbersRead_ = 0;
+  std::uint64_t numbersRead_ = 0, entriesRead_ = 0;
 };
 
 }  // namespace ringlet::usdc
