@@ -34,6 +34,7 @@
 #include "tests/motion/abc_samples.h"
 #include "tests/motion/gltf_samples.h"
 #include "tests/motion/mesh_motion_samples.h"
+#include "tests/motion/usd_clip_samples.h"
 #include "tests/motion/usd_skin_samples.h"
 
 namespace ringlet::fuzz {
@@ -160,6 +161,19 @@ void writeMotions(const fs::path& folder) {
         test::usdaText({{0, 1, 2}}, samples, 24,
                        "  double3 xformOp:translate.timeSamples = { 1: (0, 0, 0), 4: (0, 3, 0) }\n"
                        "  uniform token[] xformOpOrder = [\"xformOp:translate\"]\n"));
+  // Value clips, which are the file itself: another prim of it.
+  const std::string other = test::clipText({1, 2}, samples, "", "over \"C\"").substr(10);
+  const test::SampleClipSet stated{.files = {"self", "self"},
+                                   .active = {{1, 0}, {3, 1}, {5, 0}},
+                                   .times = {{1, 1}, {2, 2}, {2, 1}, {3, 1.5}, {6, 2}},
+                                   .primPath = "/C"},
+      made{.form = test::SampleTemplate{"self.#", 1, 3, 1, 0.5}, .primPath = "/C"};
+  write(seed(folder, "usd_mesh", "clips.usda"),
+        test::clippedText({{0, 1, 2}}, 24, test::clipsText({stated}, "prepend clipSets = [\"default\"]\n")) +
+            other);
+  write(seed(folder, "usd_mesh", "template.usda"),
+        test::clippedText({{0, 1, 2}}, 24, test::clipsText({made})) + other);
+  write(seed(folder, "usd_mesh", "clips.usdc"), test::clippedCrate({{0, 1, 2}}, 24, {stated, made}));
   write(seed(folder, "usd_mesh", "arm.usda"), test::arm::scene().text());
   write(seed(folder, "usd_mesh", "arm.usdc"), test::arm::scene().crate());
   write(seed(folder, "abc_mesh", "triangle"), test::abcMeshBytes({{0, 1, 2}}, samples, 24));
@@ -313,6 +327,12 @@ void writeDictionaries(const fs::path& folder) {
                                      "rel skel:skeleton = </A>",
                                      "skel:animationSource",
                                      "primvars:skel:jointIndices",
+                                     "clips = { dictionary default = {",
+                                     "assetPaths = [@self@]",
+                                     "active = [(1, 0), (2, 1)]",
+                                     "times = [(1, 1), (2, 2), (2, 1)]",
+                                     "templateAssetPath",
+                                     "primPath",
                                      "nan",
                                      "1e38"};
   for (const char* fuzzer : {"usda_file", "usdc_file", "usdz_file", "usd_mesh"})

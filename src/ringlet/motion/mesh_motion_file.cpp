@@ -175,7 +175,8 @@ Result<MeshPointer> readOfArchive(const MeshMotionChoice& choice, bool upIsZ) {
   if (!bytes) return bytes.error();
   const std::string name = choice.path.string();
   if (isAbcFile(choice.path)) return readAbcMesh(*bytes, name, {choice.mesh, worldOf(choice, upIsZ)});
-  return readUsdMesh(*bytes, name, {choice.mesh, choice.metresPerUnit, choice.up, upIsZ});
+  const UsdClipFolder clips(choice.path.parent_path());
+  return readUsdMesh(*bytes, name, {choice.mesh, choice.metresPerUnit, choice.up, upIsZ, &clips});
 }
 
 Result<MeshPointer> readOfAny(const MeshMotionChoice& choice, bool upIsZ) {

@@ -19,14 +19,24 @@ Status checkTimes(const std::vector<double>& seconds) {
   return {};
 }
 
+Status checkPoses(const PointSamples& samples) {
+  const std::size_t count = samples.seconds.size(), poses = samples.points.size() / samples.pointCount;
+  const bool isEach = samples.poses.empty() ? poses == count : samples.poses.size() == count;
+  if (!isEach || samples.points.size() != poses * samples.pointCount)
+    return Error{fmt::format("found {} points in {} samples; expected {} in each", samples.points.size(),
+                             count, samples.pointCount)};
+  for (const std::uint32_t pose : samples.poses)
+    if (pose >= poses)
+      return Error{fmt::format("a sample has pose {}; expected at most {}", pose, poses - 1)};
+  return {};
+}
+
 Status checkSamples(const std::vector<MeshMotion::Triangle>& triangles, const PointSamples& samples,
                     const PlacementSamples& placed) {
   const std::size_t count = samples.seconds.size();
   if (triangles.empty()) return Error{"it has no triangles"};
   if (count == 0 || samples.pointCount == 0) return Error{"it has no samples of points"};
-  if (samples.points.size() != count * samples.pointCount)
-    return Error{fmt::format("found {} points in {} samples; expected {} in each", samples.points.size(),
-                             count, samples.pointCount)};
+  if (Status checked = checkPoses(samples); !checked) return checked;
   if (Status checked = checkTimes(samples.seconds); !checked) return checked;
   if (Status checked = checkPlacements(placed); !checked) return checked;
   for (const MeshMotion::Triangle& triangle : triangles) {
@@ -102,11 +112,16 @@ double SampledMesh::lastSeconds() const {
   return std::max(samples_.seconds.back(), placed_.seconds.back());
 }
 
+const Vec3f* SampledMesh::poseOf(std::size_t sample) const {
+  const std::size_t pose = samples_.poses.empty() ? sample : samples_.poses[sample];
+  return samples_.points.data() + pose * pointCount();
+}
+
 std::vector<Vec3d> SampledMesh::pointsAt(double t) const {
   const auto [k, share] = between(samples_.seconds, t);
   const Affine placement = placementAt(placed_, t);
-  const Vec3f* before = samples_.points.data() + k * pointCount();
-  const Vec3f* next = share > 0 ? before + pointCount() : before;
+  const Vec3f* before = poseOf(k);
+  const Vec3f* next = share > 0 ? poseOf(k + 1) : before;
   std::vector<Vec3d> points;
   points.reserve(pointCount());
   for (std::size_t p = 0; p < pointCount(); ++p)

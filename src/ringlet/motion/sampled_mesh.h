@@ -2,6 +2,11 @@
 // USD. Between two samples points go on straight lines, and so do the columns of what places them.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
 #include "ringlet/base/result.h"
 #include "ringlet/motion/affine.h"
 #include "ringlet/motion/mesh_motion.h"
@@ -11,8 +16,9 @@ namespace ringlet {
 /// Samples of points, without a topology.
 struct PointSamples {
   std::size_t pointCount = 0;
-  std::vector<double> seconds{};  // of each sample, rising
-  std::vector<Vec3f> points{};    // sample by sample, in the file's unit and axes
+  std::vector<double> seconds{};       // of each sample, rising
+  std::vector<Vec3f> points{};         // pose by pose, in the file's unit and axes
+  std::vector<std::uint32_t> poses{};  // which of these each sample has; empty: one after the other
 };
 
 /// What places all points at some times.
@@ -30,7 +36,7 @@ class SampledMesh final : public MeshMotion {
  public:
   /// A mesh that nothing but its points moves has one placement, from the file's unit and axes. Errors: no
   /// triangles, points or placements; samples of another size, that do not rise or are not finite; a triangle
-  /// whose corner no sample has. Memory: 12 bytes for each point of each sample.
+  /// whose corner no sample has. Memory: 12 bytes for each point of each pose.
   static Result<SampledMesh> of(std::vector<Triangle> triangles, PointSamples samples,
                                 PlacementSamples placed = {}, std::vector<std::string> warnings = {});
 
@@ -43,6 +49,7 @@ class SampledMesh final : public MeshMotion {
 
  private:
   SampledMesh() = default;
+  const Vec3f* poseOf(std::size_t sample) const;
 
   std::vector<Triangle> triangles_;
   PointSamples samples_;

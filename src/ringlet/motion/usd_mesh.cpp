@@ -14,7 +14,9 @@
 #include "ringlet/base/file_ending.h"
 #include "ringlet/base/quoted.h"
 #include "ringlet/groom/usd/usd_file.h"
+#include "ringlet/groom/usd/usdz_file.h"
 #include "ringlet/motion/sampled_mesh.h"
+#include "ringlet/motion/usd_clips.h"
 #include "ringlet/motion/usd_prims.h"
 #include "ringlet/motion/usd_skinned_mesh.h"
 #include "ringlet/motion/usd_transform_stack.h"
@@ -29,12 +31,13 @@ constexpr std::size_t kMostNamed = 6;  // in a sentence
 
 class UsdMeshMaker {
  public:
-  UsdMeshMaker(const UsdLayer& layer, const std::string& name, const UsdMeshChoice& choice)
+  UsdMeshMaker(UsdLayer& layer, const std::string& name, const UsdMeshChoice& choice)
       : layer_(layer), name_(name), choice_(choice), prims_(layer, name) {}
 
   Result<UsdMeshPointer> make() {
     if (Status found = findMesh(); !found) return found.error();
     if (Status whole = prims_.checkComposition(prim_); !whole) return whole.error();
+    if (Status read = readClips(); !read) return read.error();
     if (Status read = readFaces(); !read) return read.error();
     if (Status read = readPoints(); !read) return read.error();
     auto deformers = readUsdDeformers(prims_, prim_, samples_.pointCount, warnings_);
@@ -132,7 +135,16 @@ class UsdMeshMaker {
     return {};
   }
 
+  Status readClips() {
+    auto clipped = readUsdClips(layer_, prims_, prim_, choice_.clips);
+    if (!clipped) return clipped.error();
+    clippedPoints_ = std::move(clipped->points);
+    warnings_ = std::move(clipped->warnings);
+    return {};
+  }
+
   Status readPoints() {
+    if (clippedPoints_) return takeClippedPoints();
     const UsdAttribute* points = usdAttributeOf(mesh(), "points");
     if (!points) return wrong(prim_, "has no points");
     if (!points->drivenBy.empty())
@@ -160,6 +172,14 @@ class UsdMeshMaker {
     return {};
   }
 
+  Status takeClippedPoints() {
+    const auto rate = prims_.timeCodesPerSecond();
+    if (!rate) return rate.error();
+    samples_ = std::move(*clippedPoints_);
+    for (double& time : samples_.seconds) time /= *rate;
+    return {};
+  }
+
   // By the prim that places what the deformers leave.
   Status place(const UsdDeformers& deformers) {
     const auto stack = UsdTransformStack::of(prims_, deformers.placedBy);
@@ -184,12 +204,13 @@ class UsdMeshMaker {
     return turnUp(choice_.up.value_or(stated), choice_.upIsZ) * scaled;
   }
 
-  const UsdLayer& layer_;
+  UsdLayer& layer_;
   const std::string& name_;
   const UsdMeshChoice& choice_;
   UsdPrims prims_;
   std::uint32_t prim_ = kNoUsdPrim;
   std::vector<MeshMotion::Triangle> triangles_;
+  std::optional<PointSamples> clippedPoints_;  // with time codes as seconds
   PointSamples samples_;
   PlacementSamples placed_;
   std::vector<std::string> warnings_;
@@ -204,9 +225,11 @@ bool isUsdFile(const std::filesystem::path& path) {
 
 Result<UsdMeshPointer> readUsdMesh(std::span<const std::byte> bytes, const std::string& name,
                                    const UsdMeshChoice& choice) {
-  const auto layer = readUsdLayer(bytes, name, UsdContent::meshes);
+  auto layer = readUsdLayer(bytes, name, UsdContent::meshes);
   if (!layer) return layer.error();
-  return UsdMeshMaker(*layer, name, choice).make();
+  UsdMeshChoice chosen = choice;
+  if (isUsdz(bytes)) chosen.clips = nullptr;  // they are beside the layer, in the package
+  return UsdMeshMaker(*layer, name, chosen).make();
 }
 
 }  // namespace ringlet

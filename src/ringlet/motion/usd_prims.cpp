@@ -52,7 +52,6 @@ std::optional<UsdProperty> UsdPrims::nearest(std::uint32_t prim, std::string_vie
   return std::nullopt;
 }
 
-// From the root, or of "../Skeleton" from a prim.
 std::optional<std::uint32_t> UsdPrims::primAt(std::string_view path, std::uint32_t from) const {
   std::uint32_t at = path.starts_with('/') ? kNoUsdPrim : from;
   while (!path.empty()) {

@@ -53,6 +53,8 @@ class UsdPrims {
   /// The prim's own, or that of the nearest above it that has a value. Nothing where "None" stands in the
   /// way.
   std::optional<UsdProperty> nearest(std::uint32_t prim, std::string_view name) const;
+  /// Of a path from the root, or of "../Skeleton" from a prim; nothing where there is none.
+  std::optional<std::uint32_t> primAt(std::string_view path, std::uint32_t from) const;
   /// The prim of this type at the target of a relationship. Errors: none there, or of another type; one that
   /// other files compose.
   Result<std::uint32_t> targetOf(const UsdProperty& relationship, std::size_t which,
@@ -69,8 +71,6 @@ class UsdPrims {
   Result<double> timeCodesPerSecond() const;
 
  private:
-  std::optional<std::uint32_t> primAt(std::string_view path, std::uint32_t from) const;
-
   const UsdLayer& layer_;
   const std::string& file_;
   std::map<std::pair<std::uint32_t, std::string_view>, std::uint32_t> children_;  // of (parent, name)
