@@ -13,6 +13,7 @@
 #include "ringlet/motion/skinned_mesh.h"
 #include "tests/motion/gltf_samples.h"
 #include "tests/motion/mesh_motion_samples.h"
+#include "tests/motion/usd_clip_samples.h"
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
@@ -104,6 +105,24 @@ TEST(ScalpProgram, SaysWhereRootsComeIntoABodyThatDoesNotBend) {
   }
 }
 
+// m.clips.usda and crates of its samples: 1 to 5, and the rest, which has times of its own.
+void writeClipped(const std::filesystem::path& folder, const test::Triangles& triangles,
+                  const std::vector<std::vector<Vec3d>>& samples) {
+  std::vector<double> first, second;
+  for (std::size_t k = 0; k < samples.size(); ++k)
+    (k < 5 ? first : second).push_back(static_cast<double>(k < 5 ? k + 1 : k + 101));
+  const auto cut = samples.begin() + static_cast<std::ptrdiff_t>(first.size());
+  test::writeBytes(folder / "m.clip.1.usdc", test::clipCrate(first, {samples.begin(), cut}));
+  test::writeBytes(folder / "m.clip.2.usdc", test::clipCrate(second, {cut, samples.end()}));
+  const auto last = static_cast<double>(samples.size());
+  test::writeBytes(folder / "m.clips.usda",
+                   test::clippedText(
+                       triangles, 24,
+                       test::clipsText({{.files = {"m.clip.1.usdc", "./m.clip.2.usdc"},
+                                         .active = {{1, 0}, {6, 1}},
+                                         .times = {{1, 1}, {5, 5}, {6, 6}, {6, 106}, {last, 100 + last}}}})));
+}
+
 // The strip in every form that has samples: m.obj with m.pc2, m.usda and so on.
 void writeSampled(const std::filesystem::path& folder) {
   const auto strip = readSkinnedMesh(folder / "strip.glb");
@@ -111,6 +130,7 @@ void writeSampled(const std::filesystem::path& folder) {
   std::vector<std::vector<Vec3d>> samples;
   for (int frame = 0; frame <= 12; ++frame) samples.push_back(strip->pointsAt(frame / 24.0));
   test::writeMeshMotion(folder, "m", strip->triangles(), samples, 24);
+  writeClipped(folder, strip->triangles(), samples);
 }
 
 // A body's mesh is the scalp: the same bits as where the scalp names the same file, and read once.
@@ -119,7 +139,7 @@ TEST(ScalpProgram, IsTheMeshOfABody) {
   ASSERT_NO_FATAL_FAILURE(writeSampled(folder));
   for (const std::string mesh :
        {"file = 'strip.glb'\n", "file = 'm.obj'\ncache = 'm.pc2'\ncache_fps = 24\nunit = 1\nstart = 0.125\n",
-        "file = 'm.usda'\nmesh = 'M'\n"}) {
+        "file = 'm.usda'\nmesh = 'M'\n", "file = 'm.clips.usda'\n"}) {
     SCOPED_TRACE(mesh);
     const std::string body =
         "[[body]]\nname = 'skin'\nshape = 'mesh'\ndeforms = true\nsides = 'both'\n" + mesh;
@@ -141,7 +161,7 @@ TEST(ScalpProgram, FollowsPointCachesAndSequences) {
   for (const char* scalp :
        {"file = 'm.obj'\ncache = 'm.pc2'", "file = 'm.obj'\ncache = 'm.pc2'\ncache_fps = 24",
         "file = 'm.obj'\ncache = 'm.mdd'", "file = 'm.####.obj'\nup = 'Y'", "file = 'm.usda'\nmesh = 'M'",
-        "file = 'm.usdc'\nmesh = '/M'", "file = 'm.abc'\nmesh = '/M'\nup = 'Y'"}) {
+        "file = 'm.usdc'\nmesh = '/M'", "file = 'm.clips.usda'", "file = 'm.abc'\nmesh = '/M'\nup = 'Y'"}) {
     writeScene(folder / "scene.toml", fmt::format("[motion]\nkind = 'nod'\n[scalp]\n{}\nunit = 1\n", scalp));
     std::filesystem::remove_all(folder / "out");
     const json run = simulate(folder, "reference");
@@ -151,6 +171,7 @@ TEST(ScalpProgram, FollowsPointCachesAndSequences) {
   }
   EXPECT_EQ(hashes[1], hashes[0]);
   EXPECT_EQ(hashes[3], hashes[0]);
+  EXPECT_EQ(hashes[6], hashes[4]) << "of value clips";
   EXPECT_EQ(hashes[5], hashes[4]) << "USD's times begin with 1/24 s, MDD's are rounded";
   for (const char* needs : {"m.pc2", "m.0012.obj"}) {
     writeScene(folder / "scene.toml", "[scalp]\nfile = 'm.####.obj'\nunit = 1\n");

@@ -68,10 +68,18 @@ TEST(RunFacts, EveryFileCountsByItsContent) {
   scene.scalp.file = writeGltf("skin.of_any_name");
   scene.goalFile = write("goal.usda", "goal");
   scene.output.hairScalpFile = write("hairs.obj", "hairs");
-  scene.bodies.resize(2);
+  scene.bodies.resize(3);
   scene.bodies[0].file = writeGltf("body.GLTF");
   scene.bodies[0].moves.emplace().file = writeGltf("moves.vrm");
   scene.bodies[1].moves.emplace().file = write("moves.bvh", "moves");
+  // A layer with value clips, stated and by a template.
+  for (const char* clip : {"clip.usda", "below/clip.1.usda", "below/clip.2.usda"}) write(clip, "clip");
+  scene.bodies[2].file = write(
+      "clipped.usda",
+      "#usda 1.0\ndef Mesh \"M\" ( clips = {\n dictionary a = { string primPath = \"/M\"\n asset[] assetPaths = "
+      "[@clip.usda@]\n double2[] active = [(1, 0)] }\n dictionary b = { string primPath = \"/M\"\n string "
+      "templateAssetPath = \"below/clip.#.usda\"\n double templateStartTime = 1\n double templateEndTime = 2\n "
+      "double templateStride = 1 } } ) {}\n");
   scene.maps.resize(2);
   scene.maps[0].file = write("map.txt", "map");
   scene.maps[1].texture = write("map.png", "picture");
@@ -84,10 +92,10 @@ TEST(RunFacts, EveryFileCountsByItsContent) {
     return found ? *found : std::vector<RunFact>{};
   };
   const auto before = facts();
-  EXPECT_EQ(files.size(), 20u);
+  EXPECT_EQ(files.size(), 24u);
   for (const auto& file : files) {
     const std::string bytes = test::readText(file);
-    std::ofstream(file, std::ios::binary) << " " + bytes;  // JSON as before, where it is that
+    std::ofstream(file, std::ios::binary) << bytes + " ";  // JSON and USD as before, where it is that
     std::vector<std::string> differ;
     const auto after = facts();
     ASSERT_EQ(after.size(), before.size()) << file;

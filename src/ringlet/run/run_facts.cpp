@@ -17,6 +17,8 @@
 #include "ringlet/motion/gltf_buffers.h"
 #include "ringlet/motion/mesh_motion_file.h"
 #include "ringlet/motion/motion_file.h"
+#include "ringlet/motion/usd_clip_files.h"
+#include "ringlet/motion/usd_mesh.h"
 #include "ringlet/output/animation_writer.h"
 #include "ringlet/rest/material_file.h"
 #include "ringlet/run/run_folder.h"
@@ -64,7 +66,8 @@ std::vector<fs::path> inputFilesOf(const fs::path& input, const SceneFile& scene
   const auto add = [&](const fs::path& file) { files.insert(file); };
   if (!input.empty()) add(input);
   forEachFileOf(std::as_const(asked), add);
-  // No other file that a scene names refers to further files. A scalp may be glTF, whatever its ending.
+  // USD files name value clips. No other file that a scene names refers to further files. A scalp may be
+  // glTF, whatever its ending.
   for (const fs::path& file : std::vector(files.begin(), files.end())) {
     if (isMeshSequence(file)) {
       files.erase(file);
@@ -72,6 +75,7 @@ std::vector<fs::path> inputFilesOf(const fs::path& input, const SceneFile& scene
     }
     if (file == scene.scalp.file || motionFileKind(file.string()) == MotionFileKind::gltf)
       std::ranges::for_each(gltfBufferFiles(file), add);
+    if (isUsdFile(file)) std::ranges::for_each(usdClipFilesOf(file), add);
   }
   return {files.begin(), files.end()};
 }
