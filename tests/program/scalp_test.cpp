@@ -115,12 +115,12 @@ void writeClipped(const std::filesystem::path& folder, const test::Triangles& tr
   test::writeBytes(folder / "m.clip.1.usdc", test::clipCrate(first, {samples.begin(), cut}));
   test::writeBytes(folder / "m.clip.2.usdc", test::clipCrate(second, {cut, samples.end()}));
   const auto last = static_cast<double>(samples.size());
-  test::writeBytes(folder / "m.clips.usda",
-                   test::clippedText(
-                       triangles, 24,
-                       test::clipsText({{.files = {"m.clip.1.usdc", "./m.clip.2.usdc"},
-                                         .active = {{1, 0}, {6, 1}},
-                                         .times = {{1, 1}, {5, 5}, {6, 6}, {6, 106}, {last, 100 + last}}}})));
+  test::writeBytes(
+      folder / "m.clips.usda",
+      test::clippedText(triangles, 24,
+                        test::clipsText({{.files = {"m.clip.1.usdc", "./m.clip.2.usdc"},
+                                          .active = {{1, 0}, {6, 1}},
+                                          .times = {{1, 1}, {5, 5}, {6, 106}, {last, 100 + last}}}})));
 }
 
 // The strip in every form that has samples: m.obj with m.pc2, m.usda and so on.
