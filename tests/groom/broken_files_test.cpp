@@ -6,12 +6,14 @@
 #include <random>
 #include <string>
 
+#include "ringlet/groom/alembic/abc_groom.h"
 #include "ringlet/groom/hair_file.h"
 #include "ringlet/groom/obj_file.h"
 #include "ringlet/groom/ply_file.h"
 #include "ringlet/groom/strand_list_file.h"
 #include "ringlet/groom/tfx_file.h"
 #include "ringlet/groom/usd/usd_file.h"
+#include "tests/groom/abc_curve_samples.h"
 #include "tests/groom/crate_bytes.h"
 #include "tests/groom/groom_samples.h"
 #include "tests/groom/ply_samples.h"
@@ -142,6 +144,22 @@ TEST(BrokenFiles, Usd) {
   spoilAndRead(text, "0123456789-+.,;()[]{}\"'#=@<>e \n", 20000, read);
   spoilAndRead(test::CrateBytes::small().bytes(), numbers, 20000, read);
   spoilAndRead(test::ZipBytes{.content = text}.bytes(), numbers, 20000, read);
+}
+
+TEST(BrokenFiles, Alembic) {
+  const Reader read = [](const std::string& bytes) {
+    return readAbcGroom(test::bytesOf(bytes), "a.abc", {.keepsPrims = true});
+  };
+  const std::vector<std::int32_t> counts{4, 5};
+  const std::vector<Vec3d> points = test::abcCurl(counts);
+  test::AbcCurveForm form{.type = test::kAbcCubic, .basis = 2};
+  form.params = {
+      test::abcArray("id", test::AbcBytes::i32, test::abcNumbers<std::int32_t>({1, 2}), 1, "geoScope=uni"),
+      test::abcArray("name", test::AbcBytes::text, std::string("a\0b\0", 4), 1, "geoScope=uni")};
+  const std::string file = test::abcFile(
+      {test::abcXform("up", {0x10}, {{1, 2, 3}}, 0, {test::abcCurves("a", counts, points, form)}),
+       test::abcMovingCurves("b", {{2}, {2}}, {test::abcCurl({2}), test::abcCurl({2})}, {.sampling = 1})});
+  spoilAndRead(file, std::string("\0\1\2\xff\x7f\x80", 6), 20000, read);
 }
 
 TEST(BrokenFiles, PlyAndLists) {

@@ -166,5 +166,54 @@ TEST(CubicCurve, AFilesTokensChooseTheBasis) {
               test::contains(none.error().message, "too few points"));
 }
 
+// By the definition of B-splines: the sum of points times their functions of Cox and de Boor.
+double basisOf(const std::vector<double>& knots, std::size_t i, int degree, double t) {
+  if (degree == 0) return knots[i] <= t && t < knots[i + 1] ? 1 : 0;
+  const auto d = static_cast<std::size_t>(degree);
+  const double rise = knots[i + d] - knots[i], fall = knots[i + d + 1] - knots[i + 1];
+  double sum = 0;
+  if (rise > 0) sum += (t - knots[i]) / rise * basisOf(knots, i, degree - 1, t);
+  if (fall > 0) sum += (knots[i + d + 1] - t) / fall * basisOf(knots, i + 1, degree - 1, t);
+  return sum;
+}
+
+TEST(CubicCurve, ABSplineWithKnotsIsABezierCurve) {
+  const std::vector<std::vector<double>> cases{{0, 0, 0, 0, 1, 1, 1, 1},
+                                               {0, 1, 2, 3, 4, 5, 6, 7, 8},
+                                               {0, 0, 0, 0, 1, 2, 2, 2, 2},
+                                               {-3, -3, -3, -3, -1, 0, 0, 0.25, 4, 4, 4, 4},
+                                               {0, 0, 1, 3, 3, 3, 7, 8, 8.5, 9, 11, 11.5}};
+  for (const std::vector<double>& knots : cases) {
+    const std::size_t count = knots.size() - 4;
+    std::vector<Vec3d> points, bezier;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto x = static_cast<double>(i);
+      points.push_back({std::cos(2 * x), x * x, std::sin(3 * x)});
+    }
+    ASSERT_TRUE(areCubicKnots(knots, count));
+    appendBezierOfKnots(points, knots, bezier);
+    std::size_t piece = 0;
+    for (std::size_t k = 3; k < count; ++k) {
+      if (!(knots[k] < knots[k + 1])) continue;
+      ASSERT_LE(3 * piece + 4, bezier.size());
+      const Vec3d* b = &bezier[3 * piece++];
+      for (const double u : {0.0, 0.3, 0.5, 0.9}) {
+        const double v = 1 - u, t = knots[k] * v + knots[k + 1] * u;
+        Vec3d expected{};
+        for (std::size_t i = 0; i < count; ++i) expected = expected + points[i] * basisOf(knots, i, 3, t);
+        const Vec3d found =
+            b[0] * (v * v * v) + b[1] * (3 * v * v * u) + b[2] * (3 * v * u * u) + b[3] * (u * u * u);
+        EXPECT_LE(length(found - expected), 1e-12) << "span " << k << " at " << u;
+      }
+    }
+    EXPECT_EQ(bezier.size(), 3 * piece + 1);
+  }
+  EXPECT_FALSE(areCubicKnots(std::vector<double>{0, 0, 0, 0, 0, 0, 0, 0}, 4));
+  EXPECT_FALSE(areCubicKnots(std::vector<double>{0, 0, 0, 1, 1, 1, 1}, 3));
+  EXPECT_FALSE(areCubicKnots(std::vector<double>{0, 0, 0, 0, 1, 1, 1, 1}, 5));
+  EXPECT_FALSE(areCubicKnots(std::vector<double>{0, 0, 0, 2, 1, 3, 3, 3}, 4));
+  EXPECT_FALSE(areCubicKnots(std::vector<double>{0, 0, 0, 0, 1, 1, 1, std::nan("")}, 4));
+}
+
 }  // namespace
 }  // namespace ringlet::cubic_curve_test

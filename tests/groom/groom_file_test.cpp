@@ -45,8 +45,9 @@ TEST(GroomFile, ChoosesByExtensionInAnyCase) {
 }
 
 TEST(GroomFile, SaysWhatIsSupported) {
-  for (const char* name : {"a.abc", "a", ".hair", ".tfx", "a.hair.gz", ""}) {
-    expectReadError(name, "supported are .hair, .obj, .usda, .usdc, .usd, .usdz, .tfx, .ply, .data and .bin");
+  for (const char* name : {"a.xyz", "a", ".hair", ".tfx", "a.hair.gz", ""}) {
+    expectReadError(name,
+                    "supported are .hair, .obj, .usda, .usdc, .usd, .usdz, .abc, .tfx, .ply, .data and .bin");
     EXPECT_FALSE(isGroomFile(name));
     expectWriteError(name, test::awkwardGroom(), "supported are .hair, .obj and .ply");
   }
@@ -55,7 +56,7 @@ TEST(GroomFile, SaysWhatIsSupported) {
 TEST(GroomFile, RefusesWhatIsNoFile) {
   const auto folder = test::scratchFolder("groom_no_file");
   for (const char* extension :
-       {".hair", ".obj", ".tfx", ".usda", ".usdc", ".usd", ".usdz", ".ply", ".data", ".bin"}) {
+       {".hair", ".obj", ".tfx", ".usda", ".usdc", ".usd", ".usdz", ".abc", ".ply", ".data", ".bin"}) {
     expectReadError(folder / ("missing" + std::string(extension)), "No such file");
     expectReadError(folder / "nowhere" / ("a" + std::string(extension)), "No such file");
     const auto inner = folder / ("folder" + std::string(extension));

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "ringlet/groom/groom_file.h"
+#include "tests/groom/abc_curve_samples.h"
 #include "tests/groom/crate_bytes.h"
 #include "tests/groom/groom_samples.h"
 #include "tests/groom/strand_list_bytes.h"
@@ -87,6 +88,12 @@ std::string asUsdc() {
   return crate.bytes();
 }
 
+std::string asAbc() {
+  std::vector<Vec3d> points;
+  for (const Vec3f p : threeStrands().points) points.push_back(Vec3d(p));
+  return test::abcFile({test::abcCurves("Hair", {3, 3, 3}, points)});
+}
+
 std::string asTfx() {
   test::TfxBytes tfx{.strandCount = 3, .pointsPerStrand = 3, .positions = {}};
   for (const Vec3f p : threeStrands().points) tfx.positions.insert(tfx.positions.end(), {p.x, p.y, p.z, 0});
@@ -137,6 +144,7 @@ std::vector<Sample> samples() {
       {"text.ply", asPlyText(false), true, "vertex 4"},
       {"edges.ply", asPlyText(true), true, "vertex 4"},
       {"a.tfx", asTfx(), false, "strand 1, point 1"},
+      {"a.abc", asAbc(), false, "/Hair: found ("},
       {"a.data", asList(3), false, "strand 1, point 1"},
       {"a.bin", asList(7), false, "strand 1, point 1"},
       {"a.usda", asUsda(), true, "/Hair: found ("},

@@ -50,6 +50,19 @@ Vec3d pointAt(const Piece& b, double t) {
   return between(between(p, q), between(q, r));
 }
 
+// The blossom of the B-spline's span from knots[3] to knots[4] at three parameters: four points, eight knots.
+Vec3d blossomAt(std::span<const Vec3d> points, std::span<const double> knots,
+                const std::array<double, 3>& at) {
+  Piece d{points[0], points[1], points[2], points[3]};
+  for (std::size_t r = 1; r <= 3; ++r) {
+    for (std::size_t j = 3; j >= r; --j) {
+      const double low = knots[j], high = knots[j + 4 - r], share = (at[r - 1] - low) / (high - low);
+      d[j] = d[j - 1] * (1 - share) + d[j] * share;
+    }
+  }
+  return d[3];
+}
+
 }  // namespace
 
 bool isCubicCount(CubicBasis basis, bool isPinned, std::size_t count) {
@@ -76,6 +89,30 @@ void appendCubic(std::span<const Vec3d> points, CubicBasis basis, bool isPinned,
     for (std::size_t i = 1; i < m; ++i)
       particles.push_back(pointAt(b, static_cast<double>(i) / static_cast<double>(m)));
     particles.push_back(b[3]);
+  }
+}
+
+bool areCubicKnots(std::span<const double> knots, std::size_t count) {
+  if (count < 4 || knots.size() != count + 4) return false;
+  for (std::size_t k = 0; k < knots.size(); ++k)
+    if (!std::isfinite(knots[k]) || (k > 0 && knots[k] < knots[k - 1])) return false;
+  return knots[3] < knots[count];
+}
+
+void appendBezierOfKnots(std::span<const Vec3d> points, std::span<const double> knots,
+                         std::vector<Vec3d>& bezier) {
+  RINGLET_ASSERT(areCubicKnots(knots, points.size()), "as many knots as the points need");
+  bool isFirst = true;
+  for (std::size_t k = 3; k < points.size(); ++k) {
+    const double from = knots[k], to = knots[k + 1];
+    if (!(from < to)) continue;
+    const auto own = points.subspan(k - 3, 4);
+    const auto around = knots.subspan(k - 3, 8);
+    if (isFirst) bezier.push_back(blossomAt(own, around, {from, from, from}));
+    bezier.push_back(blossomAt(own, around, {from, from, to}));
+    bezier.push_back(blossomAt(own, around, {from, to, to}));
+    bezier.push_back(blossomAt(own, around, {to, to, to}));
+    isFirst = false;
   }
 }
 

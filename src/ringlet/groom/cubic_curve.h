@@ -26,4 +26,13 @@ bool isCubicCount(CubicBasis basis, bool isPinned, std::size_t count);
 void appendCubic(std::span<const Vec3d> points, CubicBasis basis, bool isPinned,
                  std::vector<Vec3d>& particles);
 
+/// Whether these are knots of a cubic B-spline of so many points, four at least: four more, finite, none
+/// below the one before, and with a span between the fourth and the fourth last.
+bool areCubicKnots(std::span<const double> knots, std::size_t count);
+
+/// Appends the points of the Bezier curve that a cubic B-spline with knots is: where the first and last four
+/// are the same, one that begins and ends at its points. The knots are its own.
+void appendBezierOfKnots(std::span<const Vec3d> points, std::span<const double> knots,
+                         std::vector<Vec3d>& bezier);
+
 }  // namespace ringlet

@@ -15,6 +15,7 @@
 #include "ringlet/base/assert.h"
 #include "ringlet/base/file_ending.h"
 #include "ringlet/base/whole_file.h"
+#include "ringlet/groom/alembic/abc_groom.h"
 #include "ringlet/groom/hair_file.h"
 #include "ringlet/groom/obj_file.h"
 #include "ringlet/groom/ply_file.h"
@@ -26,7 +27,7 @@
 namespace ringlet {
 namespace {
 
-enum class Format { hair, obj, tfx, usd, ply, data, bin };
+enum class Format { hair, obj, tfx, usd, abc, ply, data, bin };
 
 std::optional<Format> formatOf(const std::filesystem::path& path) {
   const std::string extension = endingOf(path);
@@ -35,6 +36,7 @@ std::optional<Format> formatOf(const std::filesystem::path& path) {
   if (extension == ".tfx") return Format::tfx;
   if (extension == ".usda" || extension == ".usdc" || extension == ".usd" || extension == ".usdz")
     return Format::usd;
+  if (extension == ".abc") return Format::abc;
   if (extension == ".ply") return Format::ply;
   if (extension == ".data") return Format::data;
   if (extension == ".bin") return Format::bin;
@@ -60,6 +62,8 @@ Result<LoadedGroom> readFormat(Format format, std::span<const std::byte> bytes,
       return readTfx(bytes, path);
     case Format::usd:
       return readUsd(bytes, path, reading);
+    case Format::abc:
+      return readAbcGroom(bytes, path, reading);
     case Format::ply:
       return readPly(bytes, path, reading);
     case Format::data:

@@ -1,6 +1,6 @@
 // Reads and writes grooms, choosing the format by the file's extension: .hair (hair_file.h), .obj
-// (obj_file.h) or, to be read only, .usda, .usdc, .usd and .usdz (usd_file.h), .tfx (tfx_file.h), .ply
-// (ply_file.h), .data and .bin (strand_list_file.h).
+// (obj_file.h) or, to be read only, .usda, .usdc, .usd and .usdz (usd_file.h), .abc
+// (alembic/abc_groom.h), .tfx (tfx_file.h), .ply (ply_file.h), .data and .bin (strand_list_file.h).
 #pragma once
 
 #include <filesystem>
@@ -23,7 +23,7 @@ bool isGroomFile(const std::filesystem::path& path);
 
 /// All such endings, as a sentence has them: ".hair, .obj ... and .bin".
 inline constexpr const char* kGroomEndings =
-    ".hair, .obj, .usda, .usdc, .usd, .usdz, .tfx, .ply, .data and .bin";
+    ".hair, .obj, .usda, .usdc, .usd, .usdz, .abc, .tfx, .ply, .data and .bin";
 
 /// Those of them that can be written.
 inline constexpr const char* kWrittenGroomEndings = ".hair, .obj and .ply";

@@ -38,15 +38,16 @@ struct GroomReading {
   RootEnd rootEnd = RootEnd::first;   // strands whose root is the last point are turned round
 };
 
-/// What a file says of its curves beside their points: a primvar, ids, widths. Names are USD's.
+/// What a file says of its curves beside their points: a primvar, ids, widths. Names are USD's, of Alembic's
+/// parameters as well.
 struct GroomValue {
   std::string name, type, interpolation;  // "primvars:displayColor", "color3f[]", "uniform"
   std::vector<double> numbers;            // one element after the other; or
   std::vector<std::string> texts;
 };
 
-/// A prim of a USD file whose curves are strands of the groom, or all strands of a .hair file that has
-/// colours.
+/// A prim of a USD file or an object of an Alembic file whose curves are strands of the groom, or all strands
+/// of a .hair file that has colours.
 struct GroomPrim {
   std::string path;  // "/Head/Hair"; none in .hair
   std::uint32_t firstStrand = 0, strandCount = 0;
@@ -62,6 +63,7 @@ struct LoadedGroom {
   bool statesUnit = false;         // groom.metresPerUnit is what the file says; else it is only the usual one
   bool statesUp = false;           // the file says which axis points up
   bool isTurned = false;           // from that one to the other
+  bool hasUsdPrims = false;        // its prims are USD's, which a layer may change
   std::vector<GroomPrim> prims{};  // in the order of their strands, where they are asked for
 };
 

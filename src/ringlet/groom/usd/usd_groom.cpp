@@ -48,6 +48,7 @@ class UsdGroomMaker {
                  [this](std::uint32_t prim) { return pathOf(prim); }) {}
 
   Result<LoadedGroom> make() {
+    strands_.loaded().hasUsdPrims = true;
     if (Status read = readUnitAndAxis(); !read) return read.error();
     findCurves();
     if (curves_ == 0) return nothingFound();

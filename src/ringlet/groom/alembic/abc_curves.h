@@ -1,0 +1,39 @@
+// AbcCurves: what an Alembic object with curves (AbcGeom_Curve_v2) says of them at its first sample.
+//   P                   f32 x 3, a point each
+//   nVertices           points of each curve
+//   curveBasisAndType   u8 x 4: 0 cubic, 1 linear, 2 of other orders; 1 closed; 0 none, 1 Bezier, 2 B-spline,
+//                       3 Catmull-Rom, 4 Hermite, 5 power
+//   .orders, .knots, w  of NURBS: an order (degree and 1) each curve; as many knots as points and order;
+//   weights
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/groom/alembic/abc_archive.h"
+#include "ringlet/groom/alembic/abc_params.h"
+#include "ringlet/groom/curve_strands.h"
+
+namespace ringlet {
+
+struct AbcCurves {
+  ObjectCurves curves{};  // a view of `numbers`
+  CurveForm form{};
+  std::vector<double> numbers{};  // 3 a point; of curves with knots, the points of the Bezier curves they are
+  std::optional<double> seconds{};       // where its points move: when they are so
+  std::optional<double> emptySeconds{};  // and when they are not there yet
+  bool hasOtherKnots = false;            // that do not fit: even ones were taken
+};
+
+/// Of an object with these properties, those in its `.geom`: as it is at its first sample with points. Error:
+/// a sentence that says what is missing, of another type or not read, or the budget's state. Cost: linear in
+/// the sample. `pointsPerStrand` as of GroomReading.
+Result<AbcCurves> readAbcCurves(const AbcArchive& archive, std::uint32_t object,
+                                const std::vector<AbcProperty>& properties, std::uint32_t pointsPerStrand,
+                                AbcBudget& budget);
+
+}  // namespace ringlet
