@@ -2,6 +2,7 @@
 // them and as other programs would, and words to build files of, FOLDER/FUZZER.dict.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -25,6 +26,7 @@
 #include "ringlet/scenes/file/scene_file.h"
 #include "ringlet/scenes/load/scene_parts.h"
 #include "ringlet/solver/plan/shape_cost_file.h"
+#include "tests/groom/abc_curve_samples.h"
 #include "tests/groom/crate_bytes.h"
 #include "tests/groom/ply_samples.h"
 #include "tests/groom/strand_list_bytes.h"
@@ -115,6 +117,39 @@ void writeOthersGrooms(const fs::path& folder) {
         "2\nproperty int vertex1\nproperty int vertex2\nend_header\n0 0 0\n0 1 0\n0 2 0\n0 1\n1 2\n");
   write(seed(folder, "strand_list_file", "data"), test::strandList({3, 1, 2}, 3));
   write(seed(folder, "strand_list_file", "bin"), test::strandList({3, 1, 2}, 7));
+}
+
+// Of every form, below objects that move, with values of every scope, indexed ones among them.
+void writeAbcGrooms(const fs::path& folder) {
+  using test::AbcBytes;
+  const std::vector<std::int32_t> counts{4, 7};
+  const std::vector<Vec3d> points = test::abcCurl(counts);
+  const auto scoped = [](const std::string& name, std::size_t count, const char* scope) {
+    return test::abcArray(name, AbcBytes::f32, test::abcNumbers(std::vector<float>(count, 0.5f)), 1,
+                          fmt::format("geoScope={};isGeomParam=true", scope));
+  };
+  const AbcBytes::Property sides = test::abcArray(".vals", AbcBytes::text, std::string("left\0right\0", 11));
+  const AbcBytes::Property indices =
+      test::abcArray(".indices", AbcBytes::i32, test::abcNumbers<std::int32_t>({1, 0}));
+  test::AbcCurveForm linear{.more = {scoped("width", 11, "vtx"), scoped("uv", 2, "uni")}};
+  linear.params = {scoped("groom_guide", 1, "con"),
+                   {.name = "side", .metadata = "geoScope=uni", .parts = {sides, indices}}};
+  write(seed(folder, "abc_groom", "linear"),
+        test::abcFile({test::abcCurves("hair", counts, points, linear)}));
+  std::string knots;
+  for (const int count : counts)
+    for (int k = 0; k < count + 4; ++k) knots += test::abcNumber(static_cast<float>(std::clamp(k, 3, count)));
+  for (std::uint8_t basis = 1; basis < 4; ++basis) {
+    const test::AbcCurveForm cubic{.type = basis == 3 ? test::kAbcVariable : test::kAbcCubic,
+                                   .basis = basis,
+                                   .more = {test::abcArray(".knots", AbcBytes::f32, knots)}};
+    write(seed(folder, "abc_groom", fmt::format("cubic{}", basis)),
+          test::abcFile({test::abcXform("up", {0x10, 0x40}, {{0, 1, 2, 30}, {0, 1, 2, 40}}, 1,
+                                        {test::abcCurves("hair", counts, points, cubic)})}));
+  }
+  write(seed(folder, "abc_groom", "moving"),
+        test::abcFile({test::abcMovingCurves(
+            "hair", {{}, {4}, {2}}, {{}, test::abcCurl({4}), test::abcCurl({2})}, {.sampling = 1})}));
 }
 
 void writeMeshes(const fs::path& folder) {
@@ -340,6 +375,26 @@ void writeDictionaries(const fs::path& folder) {
   write(folder / "abc_mesh.dict",
         dictionary(std::vector<std::string>{"AbcGeom_PolyMesh_v1", "AbcGeom_SubD_v1", "AbcGeom_Xform_v3",
                                             ".geom", ".xform", ".faceIndices", ".faceCounts", ".inherits"}));
+  write(folder / "abc_groom.dict", dictionary(std::vector<std::string>{"AbcGeom_Curve_v2",
+                                                                       "AbcGeom_Xform_v3",
+                                                                       ".geom",
+                                                                       ".xform",
+                                                                       "P",
+                                                                       "nVertices",
+                                                                       "curveBasisAndType",
+                                                                       ".orders",
+                                                                       ".knots",
+                                                                       "w",
+                                                                       ".arbGeomParams",
+                                                                       "width",
+                                                                       "uv",
+                                                                       ".vals",
+                                                                       ".indices",
+                                                                       "visible",
+                                                                       ".instanceSource",
+                                                                       "geoScope=uni",
+                                                                       "geoScope=vtx",
+                                                                       "interpretation=rgb"}));
   write(folder / "ply_file.dict", dictionary(std::vector<std::string>{
                                       "element strand ", "element edge ", "property list uchar int ", "nsegs",
                                       "vertex1", "format binary_little_endian 1.0", "end_header"}));
@@ -359,6 +414,7 @@ void writeDictionaries(const fs::path& folder) {
 
 Status writeAll(const fs::path& folder) {
   writeOthersGrooms(folder);
+  writeAbcGrooms(folder);
   writeMeshes(folder);
   writeMotions(folder);
   writeScenes(folder);

@@ -521,7 +521,7 @@ TEST_F(CWrongFiles, FilesThatAreNone) {
   std::vector<std::string> paths = {"", "/dev/null", "/dev/full", (c.folder / "missing").string(),
                                     c.folder.string()};
   for (const char* ending : {".hair", ".obj", ".tfx", ".ply", ".data", ".bin", ".usda", ".usdc", ".usd",
-                             ".usdz", ".toml", ".rgc", ".pc2"}) {
+                             ".usdz", ".abc", ".toml", ".rgc", ".pc2"}) {
     for (const char* content : {"", garbage.c_str()}) {
       paths.push_back((c.folder / (std::string(*content ? "garbage" : "empty") + ending)).string());
       std::ofstream(paths.back()) << content;

@@ -162,7 +162,7 @@ TEST(Info, SaysWhatIsWrong) {
     const char* part;
   };
   for (const Case& c :
-       {Case{{"missing.usd"}, 4, "missing.usd"}, Case{{"a.abc"}, 1, "supported are .hair, .obj, .usda"},
+       {Case{{"missing.usd"}, 4, "missing.usd"}, Case{{"a.xyz"}, 1, "supported are .hair, .obj, .usda"},
         Case{{"nan.obj"}, 1, "line 1"}, Case{{"mesh.usda"}, 1, "found no BasisCurves"},
         Case{{"point.obj", "--fix", "a.obj"}, 1, "nothing is left to write"},
         Case{{"point.obj", "--fix", "a.tfx"}, 2, "a.tfx"},

@@ -1,4 +1,5 @@
-// Maps by what a USD groom says of its curves: primvars of every interpolation, textures at UVs; and groups.
+// Maps by what a USD or Alembic groom says of its curves: primvars of every interpolation, textures at UVs;
+// and groups.
 #include "ringlet/scenes/load/strand_values.h"
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/scenes/load/load_scene.h"
 #include "ringlet/scenes/load/scene_maps.h"
+#include "tests/groom/abc_curve_samples.h"
 #include "tests/support/test_support.h"
 
 namespace ringlet::strand_values_test {
@@ -142,6 +144,41 @@ TEST_F(StrandValues, BecomeFactors) {
   expectStiffness(loaded("[[map]]\nnumber = \"bend_stiffness\"\ntexture = \"map.png\"\n"), {0.01, 10, 4});
 }
 
+// Parameters of Alembic are maps as primvars of USD are, whatever their type: numbers, groups and UVs.
+TEST_F(StrandValues, AreOfAlembicTooForNumbersOfEveryType) {
+  const std::string uv = test::abcNumbers<float>({0.75f, 0.25f, 0.25f, 0.75f});
+  const std::pair<std::uint32_t, std::string> types[] = {
+      {1, test::abcNumbers<std::uint8_t>({2, 5})},
+      {2, test::abcNumbers<std::int8_t>({2, 5})},
+      {3, test::abcNumbers<std::uint16_t>({2, 5})},
+      {4, test::abcNumbers<std::int16_t>({2, 5})},
+      {5, test::abcNumbers<std::uint32_t>({2, 5})},
+      {6, test::abcNumbers<std::int32_t>({2, 5})},
+      {7, test::abcNumbers<std::uint64_t>({2, 5})},
+      {8, test::abcNumbers<std::int64_t>({2, 5})},
+      {9, test::abcNumbers<std::uint16_t>({0x4000, 0x4500})},
+      {10, test::abcNumbers<float>({2, 5})},
+      {11, test::abcNumbers<double>({2, 5})}};
+  for (const auto& [type, bytes] : types) {
+    test::AbcCurveForm form;
+    form.more = {test::abcArray("uv", test::AbcBytes::f32, uv, 2, "geoScope=uni")};
+    form.params = {test::abcArray("soft", static_cast<test::AbcBytes::Type>(type), bytes, 1, "geoScope=uni")};
+    std::ofstream(folder_ / "groom.abc", std::ios::binary)
+        << test::abcFile({test::abcCurves("hair", {3, 2}, test::abcCurl({3, 2}), form)});
+    const auto stiffness = [&](const std::string& map) {
+      const auto scene = parseScene(
+          "[groom]\nfile = \"groom.abc\"\n[material]\nbend_stiffness = 10\n"
+          "[[map]]\nnumber = \"bend_stiffness\"\n" +
+              map,
+          "scene.toml", folder_);
+      EXPECT_TRUE(scene) << scene.error().message;
+      return loadScene(*scene);
+    };
+    expectStiffness(stiffness("primvar = \"soft\"\n"), {20, 50});
+    expectStiffness(stiffness("texture = \"map.png\"\nlow = 0.5\nhigh = 1\n"), {10, 5});
+  }
+}
+
 TEST_F(StrandValues, GroupsNameStrands) {
   const std::string groups =
       "[[group]]\nname = \"front\"\nstrands = \"2\"\n[[group]]\nname = \"both\"\nstrands = "
@@ -193,7 +230,8 @@ TEST_F(StrandValues, MistakesAreNamed) {
   const auto generated =
       parseScene("[groom]\ngenerate = \"curl\"\n" + map + "primvar = \"soft\"\n", "scene.toml");
   ASSERT_FALSE(generated);
-  EXPECT_NE(generated.error().message.find("primvars and UVs are of USD grooms"), std::string::npos);
+  EXPECT_NE(generated.error().message.find("primvars and UVs are of USD and Alembic grooms"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -215,7 +215,7 @@ void addTuneCommand(CLI::App& app, int& exitCode) {
       command
           ->add_option(
               "GROOM", typed->groom,
-              "A groom (.hair, .obj, .usd, .tfx, .ply, .data, .bin) whose strands' lengths to tune for: four "
+              "A groom (.hair, .obj, .usd, .abc, .tfx, .ply, .data, .bin) whose strands' lengths to tune for: four "
               "at most that stand for all")
           ->type_name("FILE");
   addOptionsOfKeys(*command, typed->reading, {"groom.points_per_strand"});

@@ -123,7 +123,7 @@ void addInfoCommand(CLI::App& app, int& exitCode) {
   command->footer(kInfoExample + keysHelp(infoKeys()) + kInfoExitHelp);
   command
       ->add_option("FILE", typed->input,
-                   "A groom: .hair, .obj, .usda, .usdc, .usd, .usdz, .tfx, .ply, .data or .bin")
+                   "A groom: .hair, .obj, .usda, .usdc, .usd, .usdz, .abc, .tfx, .ply, .data or .bin")
       ->required()
       ->type_name("FILE");
   command

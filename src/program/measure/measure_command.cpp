@@ -77,7 +77,7 @@ void addMeasureCommand(CLI::App& app, int& exitCode) {
   command->footer(kMeasureExample + keysHelp(measureKeys()) + kMeasureExitHelp);
   command
       ->add_option("REST", typed->plan.rest,
-                   "The groom at rest: a .hair, .obj, .usd, .tfx, .ply, .data or .bin file")
+                   "The groom at rest: a .hair, .obj, .usd, .abc, .tfx, .ply, .data or .bin file")
       ->required()
       ->type_name("FILE");
   command

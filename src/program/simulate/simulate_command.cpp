@@ -339,7 +339,7 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
   command
       ->add_option(
           "GROOM", typed->input,
-          "Strands to simulate: a .hair, .obj, .usd, .tfx, .ply, .data or .bin file; or a scene file, .toml, "
+          "Strands to simulate: a .hair, .obj, .usd, .abc, .tfx, .ply, .data or .bin file; or a scene file, .toml, "
           "whose keys `ringlet scene --keys` prints and the options here override")
       ->required()
       ->type_name("FILE");

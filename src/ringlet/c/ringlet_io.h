@@ -41,8 +41,9 @@ typedef struct ringlet_groom_reading {
   ringlet_root_end root_end;  /* strands whose root is the last point are turned round */
 } ringlet_groom_reading;
 
-/* Reads .hair, .obj, .tfx, .ply, .data, .bin, .usda, .usdc, .usd and .usdz. `reading` may be NULL. Only USD
-   states unit and up axis; of other files the points are as they are, and gravity is the host's to set. */
+/* Reads .hair, .obj, .tfx, .ply, .data, .bin, .usda, .usdc, .usd, .usdz and .abc. `reading` may be NULL. Only
+   USD states unit and up axis; of other files the points are as they are, and gravity is the host's to set.
+ */
 ringlet_result ringlet_groom_read(const char* path, const ringlet_groom_reading* reading,
                                   ringlet_loaded_groom** groom);
 /* The groom, for ringlet_asset_build; it points into `from`, and is valid as long. */

@@ -58,7 +58,7 @@ bool needsOrigin(const SceneOutput& output) {
 }
 
 Status chooseOrigin(const LoadedGroom& groom, RunOptions& options) {
-  if (options.usesGroomPrims && (groom.prims.empty() || groom.prims.front().path.empty()))
+  if (options.usesGroomPrims && (groom.prims.empty() || !groom.hasUsdPrims))
     return Error{
         "only a USD groom has prims of its own, which prims = \"groom\" of [output] (--usd-prims groom) would change; leave it out"};
   options.origin = &groom;

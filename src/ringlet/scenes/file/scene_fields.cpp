@@ -50,7 +50,8 @@ std::span<const SceneField<SceneGroom>> groomFields() {
   using G = SceneGroom;
   static const SceneField<G> all[] = {
       {"file", "", "none",
-       "File of the strands: .hair, .obj, .usd or another format that `ringlet simulate` reads.", &G::file},
+       "File of the strands: .hair, .obj, .usd, .abc or another format that `ringlet simulate` reads.",
+       &G::file},
       {"generate",
        "",
        "none",
@@ -603,11 +604,12 @@ std::span<const SceneField<SceneMap>> mapFields() {
        "In place of a file: the strands, as \"0:99, 120\", from 0 in groom order, or names of groups.",
        &M::strands},
       {"primvar", "", "none",
-       "In place of a file: a primvar of a USD groom, of each curve or at its root; of a colour the mean.",
+       "In place of a file: a primvar of a USD groom or a parameter of an Alembic one, of each curve or at its "
+       "root; of a colour the mean.",
        &M::primvar},
       {"texture", "", "none", "In place of a file: a PNG file, whose grey is read at each strand's UVs.",
        &M::texture},
-      {"uv", "", "", "Primvar of a USD groom that has the UVs.", &M::uv, {}, "", "texture"},
+      {"uv", "", "", "Primvar of a USD or Alembic groom that has the UVs.", &M::uv, {}, "", "texture"},
       {"factor",
        "1",
        "",
@@ -747,8 +749,8 @@ std::span<const SceneField<SceneOutput>> outputFields() {
        "",
        "none",
        "What USD files have beside points and widths: a number of each strand, its rest positions, "
-       "velocities (hair.usdc and clips only), what a USD groom says of its curves (widths, ids, colours and "
-       "other primvars), what Unreal reads of a groom (docs/unreal.md).",
+       "velocities (hair.usdc and clips only), what a USD or Alembic groom says of its curves (widths, ids, "
+       "colours and other primvars), what Unreal reads of a groom (docs/unreal.md).",
        &O::values,
        {},
        "id, rest, velocities, groom, unreal"},

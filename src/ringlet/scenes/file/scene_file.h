@@ -248,8 +248,8 @@ struct SceneMap {
   // One of four:
   std::filesystem::path file;     // of factors by strand
   std::string strands;            // "0:99, fringe"
-  std::string primvar;            // of a USD groom
-  std::filesystem::path texture;  // at the UVs of a USD groom
+  std::string primvar;            // of a USD or Alembic groom
+  std::filesystem::path texture;  // at the UVs of one
   double factor = 1;              // of `strands`
   std::string uv = "st";          // primvar that has them
   double low = 0, high = 1;       // factors where primvar or texture are 0 and 1

@@ -74,7 +74,8 @@ class GroomValues {
 
   Result<Runs> runsOf(const SceneMap& map) {
     if (!groom_) {
-      if (scene_->file.empty()) return Error{"primvars and UVs are of USD grooms; this one is generated"};
+      if (scene_->file.empty())
+        return Error{"primvars and UVs are of USD and Alembic grooms; this one is generated"};
       auto read = readGroom(scene_->file, readingOf(*scene_, true));
       if (!read) return read.error();
       groom_.emplace(std::move(*read));

@@ -36,7 +36,8 @@ Error missing(const GroomPrim& prim, const std::string& name) {
 
 // How many numbers an element of this type has: "color3f[]", "float2[]", "texCoord2f[]".
 std::size_t widthOf(const std::string& type) {
-  for (const char digit : type)
+  const std::string name = type.starts_with("int64") || type.starts_with("uint64") ? type.substr(6) : type;
+  for (const char digit : name)
     if (digit >= '2' && digit <= '4') return static_cast<std::size_t>(digit - '0');
   return 1;
 }
@@ -88,8 +89,8 @@ Result<std::vector<double>> primvarOfStrands(const LoadedGroom& groom, const std
                                              std::size_t& width) {
   if (groom.prims.empty())
     return Error{fmt::format(
-        "the groom's file has no primvar {}; primvars are of USD grooms, and displayColor of .hair files "
-        "with colours",
+        "the groom's file has no primvar {}; primvars are of USD and Alembic grooms, and displayColor of .hair "
+        "files with colours",
         ringlet::quoted(name))};
   std::vector<double> numbers;
   width = 0;

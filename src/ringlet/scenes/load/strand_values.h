@@ -1,4 +1,4 @@
-// A number for each strand, from a primvar of a USD groom's curves or from a picture at their UVs.
+// A number for each strand, from a primvar of a USD or Alembic groom's curves or from a picture at their UVs.
 #pragma once
 
 #include <filesystem>
