@@ -16,6 +16,7 @@
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/output/animation_writer.h"
+#include "tests/groom/abc_curve_samples.h"
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
@@ -176,6 +177,48 @@ TEST_F(Outputs, HairsStayOutOfTheScenesBodies) {
   const std::string found = readText(folder_ / "hairs/hair.rgc");
   EXPECT_TRUE(converted("--scene", "ball.toml") == found);
   EXPECT_FALSE(converted("--groom", "groom.obj") == found) << "the ball must press on hairs";
+}
+
+// A groom of Alembic goes through info, convert, measure and simulate; what its file says of curves goes on
+// into USD files, but its objects are no prims of USD.
+TEST_F(Outputs, AnAlembicGroomGoesThroughTheProgram) {
+  const std::vector<std::int32_t> counts{5, 4};
+  test::AbcCurveForm form;
+  form.more = {
+      test::abcArray("width", test::AbcBytes::f32, test::abcNumbers<float>({0.5f}), 1, "geoScope=con")};
+  form.params = {test::abcArray("groom_id", test::AbcBytes::i32, test::abcNumbers<std::int32_t>({41, 42}), 1,
+                                "geoScope=uni")};
+  std::ofstream(folder_ / "groom.abc", std::ios::binary) << test::abcFile({test::abcXform(
+      "head", {0x10}, {{0, 3, 0}}, 0, {test::abcCurves("a b", counts, test::abcCurl(counts), form)})});
+  const auto info = run({"info", "groom.abc"});
+  ASSERT_EQ(info.exitCode, 0) << info.err;
+  EXPECT_NE(info.out.find("2 strands, 9 particles"), std::string::npos) << info.out;
+  const auto read = readGroom(folder_ / "groom.abc");
+  ASSERT_TRUE(read) << read.error().message;
+  for (const char* out : {"a.hair", "a.obj", "a.ply"}) {
+    const auto made = run({"convert", "groom.abc", out});
+    ASSERT_EQ(made.exitCode, 0) << made.err;
+    const auto back = readGroom(folder_ / out);
+    ASSERT_TRUE(back) << back.error().message;
+    EXPECT_EQ(back->groom.points, read->groom.points) << out;
+  }
+  const auto made = simulate("groom.abc", {"--usdc", "--usd-values", "groom", "-o", "abc"});
+  ASSERT_EQ(made.exitCode, 0) << made.err;
+  for (const char* file : {"abc/hair.usda", "abc/hair.usdc"}) {
+    const auto back = readGroom(folder_ / file, {.keepsPrims = true});
+    ASSERT_TRUE(back) << back.error().message;
+    const auto& values = back->prims.at(0).values;
+    const auto id = std::ranges::find(values, "primvars:groom_id", &GroomValue::name);
+    ASSERT_NE(id, values.end()) << file;
+    EXPECT_EQ(id->numbers, (std::vector<double>{41, 42})) << file;
+    const auto widths = std::ranges::find(values, "widths", &GroomValue::name);
+    ASSERT_NE(widths, values.end()) << file;
+    EXPECT_EQ(widths->numbers, (std::vector<double>{0.5})) << file;
+  }
+  EXPECT_EQ(run({"measure", "groom.abc", "abc/hair.usda"}).exitCode, 0);
+  const auto prims = simulate("groom.abc", {"--usd-prims", "groom", "--usdc", "--no-usd", "-o", "no"});
+  EXPECT_EQ(prims.exitCode, 1);
+  EXPECT_NE(prims.err.find("only a USD groom has prims"), std::string::npos) << prims.err;
 }
 
 TEST_F(Outputs, HairsHaveNothingOfTheGroomsFile) {
