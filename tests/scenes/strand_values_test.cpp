@@ -171,8 +171,7 @@ TEST_F(StrandValues, AreOfAlembicTooForNumbersOfEveryType) {
           "[[map]]\nnumber = \"bend_stiffness\"\n" +
               map,
           "scene.toml", folder_);
-      EXPECT_TRUE(scene) << scene.error().message;
-      return loadScene(*scene);
+      return scene ? loadScene(*scene) : Result<LoadedScene>(scene.error());
     };
     expectStiffness(stiffness("primvar = \"soft\"\n"), {20, 50});
     expectStiffness(stiffness("texture = \"map.png\"\nlow = 0.5\nhigh = 1\n"), {10, 5});
