@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::string_view kPrefix = "primvars:groom_";
 // Types of primvars that the importer reads.
-constexpr std::array<std::string_view, 9> kTypes{"int",      "float",   "float2",  "texCoord2f", "float3",
-                                                 "vector3f", "color3f", "double2", "string"};
+constexpr std::array<std::string_view, 8> kTypes{"int",    "float",    "float2",  "texCoord2f",
+                                                 "float3", "vector3f", "double2", "string"};
 
 class UnrealValues {
  public:
@@ -72,14 +72,14 @@ class UnrealValues {
     add(std::move(roots));
   }
 
-  // Of each point.
+  // Of each point; a color3f is none of the importer's types.
   void addColours() {
-    const UsdStageAttribute* colours = find({"primvars:displayColor"});
+    const UsdStageAttribute* colours = find({"primvars:groom_color", "primvars:displayColor"});
     if (!colours || colours->numbers.size() % 3 != 0) return;
     const std::size_t count = colours->numbers.size() / 3;
     const bool isOfPoints = count == pointCount() && colours->interpolation != "uniform";
     if (!isOfPoints && count != strandCount() && count != 1) return;
-    UsdStageAttribute all{.name = "primvars:groom_color", .type = "color3f[]", .interpolation = "vertex"};
+    UsdStageAttribute all{.name = "primvars:groom_color", .type = "float3[]", .interpolation = "vertex"};
     for (std::size_t s = 0; s < strandCount(); ++s) {
       for (std::size_t i = first_[s] - first_[0]; i < first_[s + 1] - first_[0]; ++i) {
         const double* colour = colours->numbers.data() + 3 * (isOfPoints ? i : count == 1 ? 0 : s);
