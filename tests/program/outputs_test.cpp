@@ -234,6 +234,42 @@ TEST_F(Outputs, HairsHaveNothingOfTheGroomsFile) {
   EXPECT_EQ(simulate("groom.obj", {"--hairs", "0", "-o", "refused"}).exitCode, 2);
 }
 
+// Strands are of the first group that has them, and hairs of their strand's.
+TEST_F(Outputs, UnrealHasTheGroupsOfTheScene) {
+  const auto groom = readGroom(folder_ / "groom.obj");
+  ASSERT_TRUE(groom) << groom.error().message;
+  const std::size_t strands = groom->groom.strandCount();
+  ASSERT_GE(strands, 2u);
+  for (const std::size_t hairs : {std::size_t{0}, 2 * strands}) {
+    std::ofstream(folder_ / "unreal.toml")
+        << "[groom]\nfile = 'groom.obj'\n[[group]]\nname = 'fringe'\nstrands = '1'\n[[group]]\nname = 'most'\n"
+           "strands = '1:"
+        << strands - 1 << "'\n[output]\nfiles = ['hair.usda', 'hair.usdc']\nvalues = ['unreal']\n"
+        << (hairs > 0 ? fmt::format("hairs = {}\n", hairs) : "");
+    const auto made = simulate("unreal.toml", {"-o", "unreal", "--overwrite"});
+    ASSERT_EQ(made.exitCode, 0) << made.err;
+    for (const char* file : {"unreal/hair.usda", "unreal/hair.usdc"}) {
+      SCOPED_TRACE(fmt::format("{}, {} hairs", file, hairs));
+      const auto back = readGroom(folder_ / file, {.keepsPrims = true});
+      ASSERT_TRUE(back) << back.error().message;
+      const auto& values = back->prims.at(0).values;
+      const auto ids = std::ranges::find(values, "primvars:groom_group_id", &GroomValue::name);
+      const auto names = std::ranges::find(values, "primvars:groom_group_name", &GroomValue::name);
+      ASSERT_NE(ids, values.end());
+      ASSERT_NE(names, values.end());
+      ASSERT_EQ(ids->numbers.size(), hairs > 0 ? hairs : strands);
+      // One strand is in no group, one in the first, the others in the second; of hairs as many each.
+      const std::size_t each = ids->numbers.size() / strands;
+      EXPECT_EQ(std::ranges::count(ids->numbers, 2.0), std::ptrdiff_t(each));
+      EXPECT_EQ(std::ranges::count(ids->numbers, 0.0), std::ptrdiff_t(each));
+      EXPECT_EQ(std::ranges::count(ids->numbers, 1.0), std::ptrdiff_t(each * (strands - 2)));
+      for (std::size_t s = 0; s < ids->numbers.size(); ++s)
+        EXPECT_EQ(names->texts.at(s), (std::vector<std::string>{"fringe", "most", "others"}.at(
+                                          static_cast<std::size_t>(ids->numbers[s]))));
+    }
+  }
+}
+
 TEST_F(Outputs, TheSceneSaysWhatOptionsSay) {
   std::ofstream(folder_ / "scene.toml")
       << "[groom]\nfile = 'groom.obj'\n[motion]\nkind = 'shake'\n[output]\nfolder = 'scene'\n"
