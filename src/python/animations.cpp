@@ -292,7 +292,7 @@ void addWriter(py::module_& module) {
       "fps: frames per second; frames: the most that will come, for which USD files keep room; "
       "metres_per_unit: of the file, None: the groom's; up: \"Y\" or \"Z\"; width: of strands [m]; "
       "precision: of .rgc, \"float32\" or \"16bit\". Of .usda and .usdc: tip_width: of strands at the "
-      "tip [m], None: as width; values: of \"id\", \"rest\" and \"velocities\" (.usdc and clips only); "
+      "tip [m], None: as width; values: of \"id\", \"rest\", \"unreal\" and \"velocities\" (.usdc and clips only); "
       "head: where the motion of write()'s head is, \"baked\" into the points, as a \"transform\" of the "
       "prim, or \"none\"; clip_frames: frames of a value clip of a .usda, 0: one file. ringlet.Error "
       "where the file cannot be written.");
