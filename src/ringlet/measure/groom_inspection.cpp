@@ -6,10 +6,15 @@
 #include <cmath>
 #include <span>
 
+#include "ringlet/base/median.h"
+#include "ringlet/groom/coarse_curls.h"
 #include "ringlet/groom/curl_shape.h"
 #include "ringlet/groom/mend_groom.h"
 #include "ringlet/groom/root_ends.h"
+#include "ringlet/groom/strand_faults.h"
+#include "ringlet/groom/strand_length.h"
 #include "ringlet/groom/stray_points.h"
+#include "ringlet/groom/thrown_points.h"
 
 namespace ringlet {
 namespace {
@@ -19,12 +24,6 @@ constexpr std::array<LikelyUnit, 4> kUnits{
 constexpr double kUpShare = 2;  // the total vector of all strands is this much larger downward than along
                                 // both other axes
 
-double medianOf(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // The axis along which all strands together hang.
 char upOf(Vec3d way) {
   const double down = std::max(-way.y, -way.z);
@@ -33,18 +32,6 @@ char upOf(Vec3d way) {
   const double across = std::max(std::abs(way.x), std::abs(isZ ? way.y : way.z));
   if (down < kUpShare * across) return 0;
   return isZ ? 'Z' : 'Y';
-}
-
-double lengthOf(std::span<const Vec3f> strand) {
-  double whole = 0;
-  for (std::size_t i = 1; i < strand.size(); ++i) whole += length(Vec3d(strand[i]) - Vec3d(strand[i - 1]));
-  return whole;
-}
-
-Vec3d centreOf(std::span<const Vec3f> strand) {
-  Vec3d sum;
-  for (const Vec3f& point : strand) sum += Vec3d(point);
-  return sum / static_cast<double>(strand.size());
 }
 
 // Faults of the edges of each strand, and strands without length.
@@ -66,37 +53,35 @@ void findEdgeFaults(const Groom& groom, std::span<const double> lengths, GroomIn
   }
 }
 
-// Strands that differ much from the median.
-void findStrayStrands(const Groom& groom, std::span<const double> lengths, GroomInspection& found) {
-  std::vector<Vec3d> centres;
-  std::array<std::vector<double>, 3> places;
-  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
-    const Vec3d centre = centreOf(groom.strand(s));
-    centres.push_back(centre);
-    places[0].push_back(centre.x);
-    places[1].push_back(centre.y);
-    places[2].push_back(centre.z);
-  }
-  const Vec3d middle{medianOf(places[0]), medianOf(places[1]), medianOf(places[2])};
-  std::vector<double> distances;
-  for (const Vec3d& centre : centres) distances.push_back(length(centre - middle));
-  // In a groom of one strand, or with all strands in a row, distances up to the median length count as near.
-  const double near = std::max(middleOf(distances).median, found.length.median);
-  for (std::size_t s = 0; s < lengths.size(); ++s) {
-    if (lengths[s] > 0 && lengths[s] * kStrayLength < found.length.median) found.tooShort.add(s);
-    if (lengths[s] > kStrayLength * found.length.median && found.length.median > 0) found.tooLong.add(s);
-    if (distances[s] > kStrayDistance * near) found.farAway.add(s);
+void addTo(GroomFault& fault, const std::vector<bool>& which) {
+  for (std::size_t s = 0; s < which.size(); ++s) {
+    if (which[s]) fault.add(s);
   }
 }
 
-// Particles and strands in the same place as others or far from all, and strands that run from tip to root.
-void findPlaceFaults(const Groom& groom, GroomInspection& found) {
-  const std::vector<bool> isDuplicate = duplicatesIn(groom), isReversed = findRootEnds(groom).isReversed;
-  const std::vector<bool> isShared = sharedPlaces(groom, isDuplicate), isStray = strayPoints(groom);
+void addStrandFaults(const Groom& groom, const ScalpSurface* scalp, GroomInspection& found) {
+  const StrandFaults faults = findStrandFaults(groom, scalp);
+  addTo(found.duplicates, faults.isDuplicate);
+  addTo(found.twins, faults.isTwin);
+  addTo(found.tooShort, faults.strays.isTooShort);
+  addTo(found.tooLong, faults.strays.isTooLong);
+  addTo(found.farAway, faults.strays.isFarAway);
+  addTo(found.reversedStrands, faults.isTurned);
+  addTo(found.floatingRoots, faults.roots.isFloating);
+  addTo(found.sunkRoots, faults.roots.isSunk);
   for (std::size_t s = 0; s < groom.strandCount(); ++s) {
-    if (isDuplicate[s]) found.duplicates.add(s);
-    if (isReversed[s]) found.reversedStrands.add(s);
+    const std::vector<Vec3d> strand(groom.strand(s).begin(), groom.strand(s).end());
+    if (isCoarseCurl(strand)) found.coarseCurls.add(s);
+  }
+}
+
+// Particles in the same place as others, far from all or off their strand.
+void findPlaceFaults(const Groom& groom, GroomInspection& found) {
+  const std::vector<bool> isShared = sharedPlaces(groom, duplicatesIn(groom));
+  const std::vector<bool> isStray = strayPoints(groom), isThrown = thrownPoints(groom);
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
     for (std::size_t i = groom.firstPoint[s]; i < groom.firstPoint[s + 1]; ++i) {
+      if (isThrown[i]) found.thrownParticles.add(s);
       if (isStray[i]) {
         found.strayParticles.add(s);
       } else if (isShared[i]) {
@@ -108,7 +93,7 @@ void findPlaceFaults(const Groom& groom, GroomInspection& found) {
 
 std::vector<double> lengthsOf(const Groom& groom) {
   std::vector<double> lengths;
-  for (std::size_t s = 0; s < groom.strandCount(); ++s) lengths.push_back(lengthOf(groom.strand(s)));
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) lengths.push_back(lengthAlong(groom.strand(s)));
   return lengths;
 }
 
@@ -169,13 +154,13 @@ GroomShape inspectShape(const Groom& groom) {
   return found;
 }
 
-GroomInspection inspectGroom(const Groom& groom) {
+GroomInspection inspectGroom(const Groom& groom, const ScalpSurface* scalp) {
   GroomInspection found;
   static_cast<GroomShape&>(found) = inspectShape(groom);
   if (groom.points.empty()) return found;
   const std::vector<double> lengths = lengthsOf(groom);
   findEdgeFaults(groom, lengths, found);
-  findStrayStrands(groom, lengths, found);
+  addStrandFaults(groom, scalp, found);
   findPlaceFaults(groom, found);
   return found;
 }

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "ringlet/base/bounds.h"
 #include "ringlet/groom/groom.h"
+#include "ringlet/groom/scalp_surface.h"
 
 namespace ringlet {
 
@@ -24,20 +26,21 @@ struct LikelyUnit {
 
 /// Plausible range of the mean length of a head's hair [m].
 inline constexpr double kShortestHair = 0.03, kLongestHair = 1;
-/// A strand is a stray if it is shorter or longer than the median by this factor, or if its distance from the
-/// median place is this many times the median distance.
-inline constexpr double kStrayLength = 20, kStrayDistance = 6;
 /// An edge is reported if it is shorter than this share of its strand's mean edge.
 inline constexpr double kShortEdgeShare = 1e-3;
 /// Or if it is longer than its strand's median edge by this factor.
 inline constexpr double kLongEdge = 6;
 
-/// A fault of a groom: how often it occurs, and one strand as an example.
+/// A fault of a groom: how often it occurs, and in which strands.
 struct GroomFault {
   std::size_t count = 0, firstStrand = 0;
+  std::vector<std::uint32_t> strands{};  // that have it, ascending
 
+  /// Of one strand after the other.
   void add(std::size_t strand, std::size_t number = 1) {
-    if (count == 0 && number > 0) firstStrand = strand;
+    if (number == 0) return;
+    if (count == 0) firstStrand = strand;
+    if (strands.empty() || strands.back() != strand) strands.push_back(static_cast<std::uint32_t>(strand));
     count += number;
   }
 };
@@ -61,16 +64,21 @@ struct GroomInspection : GroomShape {
   GroomFault shortEdges;                  // not counting repeatedParticles
   GroomFault longEdges;                   // compared with the strand's median
   GroomFault strayParticles;              // far from all hair (stray_points.h)
+  GroomFault thrownParticles;             // off their strand, alone (thrown_points.h)
   GroomFault sharedParticles;             // at the very place of another strand's particle
-  GroomFault reversedStrands;             // tip on the head and root away from it (root_ends.h)
+  GroomFault reversedStrands;             // from tip to root (turned_strands.h)
+  GroomFault floatingRoots, sunkRoots;    // above the scalp and below it (root_heights.h)
   GroomFault pointStrands;                // all particles at one place
   GroomFault duplicates;                  // strands with the same particles as an earlier one
-  GroomFault tooShort, tooLong, farAway;  // strays
+  GroomFault twins;                       // strands that are nearly an earlier one (twin_strands.h)
+  GroomFault tooShort, tooLong, farAway;  // stray_strands.h
+  GroomFault coarseCurls;                 // with fewer than four particles a turn (coarse_curls.h)
 
   bool isFaultless() const {
     for (const GroomFault* fault :
-         {&repeatedParticles, &shortEdges, &longEdges, &strayParticles, &sharedParticles, &reversedStrands,
-          &pointStrands, &duplicates, &tooShort, &tooLong, &farAway}) {
+         {&repeatedParticles, &shortEdges, &longEdges, &strayParticles, &thrownParticles, &sharedParticles,
+          &reversedStrands, &floatingRoots, &sunkRoots, &pointStrands, &duplicates, &twins, &tooShort,
+          &tooLong, &farAway, &coarseCurls}) {
       if (fault->count > 0) return false;
     }
     return true;
@@ -89,7 +97,8 @@ char likelyUpOf(const Groom& groom);
 /// Cost: n log n in the strands, and measureCurl of each.
 GroomShape inspectShape(const Groom& groom);
 
-/// Cost: that of inspectShape, and n log n in the particles.
-GroomInspection inspectGroom(const Groom& groom);
+/// `scalp` is what roots are on [m], if that is known; else it is what they span. Cost: that of inspectShape,
+/// and n log n in the particles.
+GroomInspection inspectGroom(const Groom& groom, const ScalpSurface* scalp = nullptr);
 
 }  // namespace ringlet
