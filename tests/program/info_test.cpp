@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -63,6 +64,7 @@ TEST(Info, SaysHowLongAndHowCurled) {
   EXPECT_EQ(found["unit_from"], "default");
   EXPECT_EQ(found["likely_up"], "Y");
   EXPECT_TRUE(found["up_from"].is_null());
+  EXPECT_TRUE(found["at_rest"].is_null());
   // 56 units long: of a head in cm and, at 5.6 cm, in mm.
   ASSERT_EQ(found["likely_units"].size(), 2u);
   EXPECT_EQ(found["likely_units"][0]["name"], "cm");
@@ -70,6 +72,9 @@ TEST(Info, SaysHowLongAndHowCurled) {
   for (const auto& [key, fault] : found["faults"].items()) {
     EXPECT_EQ(fault["count"], 0) << key;
     EXPECT_TRUE(fault["first_strand"].is_null());
+    EXPECT_TRUE(fault["strands"].empty());
+    for (const char* sentence : {"means", "fix"})
+      EXPECT_TRUE(fault[sentence].get<std::string>().ends_with(".")) << key;
   }
   EXPECT_FALSE(found.contains("fixed"));
 
@@ -121,14 +126,15 @@ TEST(Info, FindsFaultsAndMendsThem) {
   EXPECT_EQ(found["faults"]["too_long"]["count"], 0);
 
   const json fixed = jsonOf(folder, {"info", "bad.obj", "--fix", "good.hair", "--particles", "7"})["fixed"];
-  EXPECT_EQ(fixed["strands"], 11);
-  EXPECT_EQ(fixed["particles"], 77);
+  EXPECT_EQ(fixed["strands"], 10);
+  EXPECT_EQ(fixed["particles"], 70);
   EXPECT_EQ(fixed["merged"], 3);
   EXPECT_EQ(fixed["dropped_points"], 1);
   EXPECT_EQ(fixed["dropped_duplicates"], 1);
+  EXPECT_EQ(fixed["dropped_strays"], 1);
   const auto good = readGroom(folder / "good.hair");
   ASSERT_TRUE(good);
-  for (std::size_t s = 0; s < 11; ++s) ASSERT_EQ(good->groom.strand(s).size(), 7u);
+  for (std::size_t s = 0; s < 10; ++s) ASSERT_EQ(good->groom.strand(s).size(), 7u);
   // Nine long, cut into six.
   for (std::size_t i = 0; i < 7; ++i)
     EXPECT_LT(length(good->groom.strand(8)[i] - Vec3f{3, -1.5f * float(i), 1}), 1e-5f) << i;
@@ -137,9 +143,72 @@ TEST(Info, FindsFaultsAndMendsThem) {
     EXPECT_EQ(after["faults"][key]["count"], 0) << key;
 
   const ProgramResult text = runProgram(folder, {"info", "bad.obj", "--fix", "same.obj"});
-  for (const char* part : {"repeated particles: 3 (the first in strand 8)", "strands that are there twice: 1",
-                           "same.obj: 11 strands", "3 particles merged"})
+  for (const char* part :
+       {"repeated particles: 3 (the first in strand 8)", "strands that are there twice: 1",
+        "same.obj: 10 strands", "3 particles merged", "strands that are there twice: 1, then 0",
+        "They cost time twice", "--fix drops all but the first."})
     EXPECT_NE(text.out.find(part), std::string::npos) << part << " in\n" << text.out;
+}
+
+// What was wrong, in which strands, what --fix did and what is left.
+TEST(Info, SaysWhatWasWrongBeforeAndIsAfterwards) {
+  const auto folder = scratchFolder("info_doctor");
+  ASSERT_EQ(runProgram(folder, {"make", "head", "--strands", "200", "-o", "head.hair"}).exitCode, 0);
+  auto head = readGroom(folder / "head.hair");
+  ASSERT_TRUE(head);
+  Groom bad;
+  for (std::size_t s = 0; s < 200; ++s) {
+    std::vector<Vec3f> strand(head->groom.strand(s).begin(), head->groom.strand(s).end());
+    if (s % 50 == 3) std::reverse(strand.begin(), strand.end());
+    for (Vec3f& p : strand) {
+      if (s == 10) p = p + strand.front() * (3 / length(strand.front()));
+    }
+    bad.addStrand(strand);
+  }
+  ASSERT_TRUE(writeGroom(folder / "bad.hair", bad));
+  const json found = jsonOf(folder, {"info", "bad.hair", "--fix", "good.hair"});
+  EXPECT_EQ(found["faults"]["reversed_strands"]["strands"], (json{3, 53, 103, 153}));
+  EXPECT_EQ(found["fixed"]["turned"], 4);
+  for (const auto& [key, fault] : found["fixed"]["faults"].items()) EXPECT_EQ(fault["count"], 0) << key;
+  EXPECT_EQ(jsonOf(folder, {"info", "good.hair"})["faults"], found["fixed"]["faults"]);
+  EXPECT_GT(found["at_rest"]["width"].get<double>(), 0.3);
+  EXPECT_GE(found["at_rest"]["overlapping_pairs"], found["at_rest"]["crossing_pairs"]);
+
+  const ProgramResult wrong = runProgram(folder, {"info", "bad.hair", "--scalp", "none.obj"});
+  EXPECT_EQ(wrong.exitCode, 4) << wrong.err;
+  EXPECT_NE(wrong.err.find("none.obj"), std::string::npos) << wrong.err;
+  EXPECT_EQ(runProgram(folder, {"info", "bad.hair", "--scalp", "none.stl"}).exitCode, 2);
+}
+
+// A box under the roots of straight hair in units of 1 cm; then one of which they are all far off.
+TEST(Info, AScalpSaysWhichRootsAreOff) {
+  const auto folder = scratchFolder("info_scalp");
+  Groom groom;
+  for (int s = 0; s < 25; ++s) {
+    std::vector<Vec3f> strand;
+    for (int i = 0; i < 9; ++i)
+      strand.push_back(
+          {float(s % 5), (s == 7 ? 3.f : 0.f) - float(i), 4 + float(s) / 5 + (i > 0 ? 4.f : 0.f)});
+    groom.addStrand(strand);
+  }
+  ASSERT_TRUE(writeGroom(folder / "groom.obj", groom));
+  const auto box = [&](const char* name, int top) {
+    std::string text;
+    for (int k = 0; k < 8; ++k)
+      text += fmt::format("v {} {} {}\n", k & 1 ? 14 : -10, k & 2 ? top : top - 12, k & 4 ? 16 : -8);
+    write(folder / name, text + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n");
+  };
+  box("near.obj", 0);
+  box("far.obj", -3);
+  const json near = jsonOf(folder, {"info", "groom.obj", "--scalp", "near.obj", "--fix", "fixed.obj"});
+  EXPECT_EQ(near["faults"]["floating_roots"]["strands"], json::array({7}));
+  EXPECT_EQ(near["fixed"]["moved"], 1);
+  EXPECT_EQ(near["fixed"]["faults"]["floating_roots"]["count"], 0);
+  EXPECT_LT(std::abs(readGroom(folder / "fixed.obj")->groom.strand(7)[0].y), 0.2f);
+  const json far = jsonOf(folder, {"info", "groom.obj", "--scalp", "far.obj", "--fix", "same.obj"});
+  EXPECT_EQ(far["faults"]["floating_roots"]["count"], 25);
+  EXPECT_EQ(far["fixed"]["moved"], 0);
+  EXPECT_NE(far["warnings"].dump().find("25 of 25 roots are off the scalp"), std::string::npos);
 }
 
 TEST(Info, WarnsWhereACurlWouldBeLost) {

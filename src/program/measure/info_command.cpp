@@ -1,5 +1,5 @@
 // Implements info_command.h. What is looked at stands in measure/groom_inspection.h, what --fix does in
-// groom/mend_groom.h.
+// groom/treat_groom.h.
 #include "program/measure/info_command.h"
 
 #include <fmt/format.h>
@@ -21,20 +21,23 @@
 #include "program/cli/standard_output.h"
 #include "program/cli/written_groom.h"
 #include "program/measure/info_report.h"
+#include "ringlet/bodies/mesh_file.h"
+#include "ringlet/bodies/mesh_scalp.h"
+#include "ringlet/groom/coarse_curls.h"
 #include "ringlet/groom/groom_file.h"
-#include "ringlet/groom/mend_groom.h"
+#include "ringlet/groom/treat_groom.h"
 #include "ringlet/measure/groom_inspection.h"
+#include "ringlet/measure/rest_crossings.h"
 
 namespace ringlet::program {
 namespace {
-
-constexpr double kParticlesPerTurn = 4;  // with which a curl keeps its shape
 
 constexpr const char* kInfoExample =
     "Examples:\n"
     "  ringlet info groom.usd                         how many strands, how long, how curled, what is wrong\n"
     "  ringlet info groom.obj --unit 1                the same, in metres\n"
     "  ringlet info groom.ply --fix groom.hair        without repeated particles and broken strands\n"
+    "  ringlet info scan.ply --scalp head.obj         how far roots are from the head's mesh\n"
     "  ringlet info groom.usd --fix groom.obj --particles 64\n"
     "\n"
     "A head's hair is 3 cm to 1 m long on average: units in which the groom would be as long are listed.\n"
@@ -43,10 +46,14 @@ constexpr const char* kInfoExample =
     "Strands that cannot be read, or hold numbers that are not finite, are left out with a warning; a file\n"
     "without any other fails with the reason.\n"
     "\n"
-    "--fix takes out stray particles, merges repeated ones, drops strands in one place and duplicates, and "
-    "leaves\n"
-    "the other faults alone. --root-end last turns all strands round, --root-end head those that end on the "
-    "head.\n"
+    "--fix takes out particles that are strays or thrown off, merges repeated ones, drops strands in one "
+    "place,\n"
+    "duplicates, twins and strands far away or far too long, turns strands round that run from tip to root, "
+    "moves\n"
+    "strands whose roots are off the scalp, and leaves the other faults alone. It says what was wrong before "
+    "and is\n"
+    "afterwards. --root-end last turns all strands round before that. The scalp is what the roots span, or "
+    "--scalp.\n"
     "With --particles each strand has that many, at equal distances along its edges; four a turn keep a "
     "curl. It\n"
     "writes in the file's unit, which its formats do not hold: a warning says what --unit and --up a groom "
@@ -61,7 +68,7 @@ constexpr const char* kInfoExitHelp =
 
 // The command line as typed.
 struct TypedInfo {
-  std::filesystem::path input, output;
+  std::filesystem::path input, output, scalp;
   std::optional<double> metresPerUnit;
   std::optional<std::string> up;
   TypedKeys groom;
@@ -69,11 +76,30 @@ struct TypedInfo {
   bool json = false;
 };
 
-Result<FixedGroom> fix(const TypedInfo& typed, const LoadedGroom& loaded, const GroomInspection& found) {
-  FixedGroom fixed{mendGroom(loaded.groom, static_cast<std::size_t>(typed.particles.value_or(0))), {}};
+Result<std::shared_ptr<const ScalpSurface>> scalpOf(const TypedInfo& typed, double metresPerUnit) {
+  if (typed.scalp.empty()) return std::shared_ptr<const ScalpSurface>();
+  const auto mesh = readObjMesh(typed.scalp, metresPerUnit);
+  if (!mesh) return mesh.error();
+  return makeMeshScalp(*mesh);
+}
+
+Result<FixedGroom> fix(const TypedInfo& typed, const LoadedGroom& loaded, const GroomInspection& found,
+                       const ScalpSurface* scalp) {
+  FixedGroom fixed{
+      treatGroom(loaded.groom,
+                 {.particleCount = static_cast<std::size_t>(typed.particles.value_or(0)), .scalp = scalp}),
+      {},
+      {}};
   if (fixed.mended.groom.strandCount() == 0) {
     return Error{fmt::format("{}: all its strands are in one place, so that nothing is left to write",
                              typed.input.string())};
+  }
+  fixed.after = inspectGroom(fixed.mended.groom, scalp);
+  if (fixed.after.floatingRoots.count + fixed.after.sunkRoots.count > fixed.after.strandCount / 2) {
+    fixed.warnings.push_back(fmt::format(
+        "{} of {} roots are off the scalp, so that no strand was moved: the groom has another unit or place "
+        "than the scalp",
+        fixed.after.floatingRoots.count + fixed.after.sunkRoots.count, fixed.after.strandCount));
   }
   if (typed.particles && *typed.particles < kParticlesPerTurn * found.turns.max) {
     fixed.warnings.push_back(fmt::format(
@@ -93,16 +119,25 @@ int run(const TypedInfo& typed) {
   auto loaded = readGroom(typed.input, readingOf(typed.groom, typed.up == "Z"));
   if (!loaded) return fail("info", loaded.error());
   if (typed.metresPerUnit) loaded->groom.metresPerUnit = *typed.metresPerUnit;
-  const GroomInspection found = inspectGroom(loaded->groom);
+  const auto scalp = scalpOf(typed, loaded->groom.metresPerUnit);
+  if (!scalp) return fail("info", scalp.error());
+  const GroomInspection found = inspectGroom(loaded->groom, scalp->get());
+  const std::optional<RestCrossings> crossings = restCrossings(loaded->groom);
   std::optional<FixedGroom> fixed;
   if (!typed.output.empty()) {
-    auto done = fix(typed, *loaded, found);
+    auto done = fix(typed, *loaded, found, scalp->get());
     if (!done) return fail("info", done.error());
     fixed = std::move(*done);
   }
-  const InfoReport report{
-      typed.input, typed.output, typed.metresPerUnit ? "option" : loaded->statesUnit ? "file" : "default",
-      *loaded,     found,        fixed ? &*fixed : nullptr};
+  const InfoReport report{typed.input,
+                          typed.output,
+                          typed.metresPerUnit  ? "option"
+                          : loaded->statesUnit ? "file"
+                                               : "default",
+                          *loaded,
+                          found,
+                          crossings,
+                          fixed ? &*fixed : nullptr};
   if (typed.json) {
     printJson(infoJson(report));
     return kExitFine;
@@ -136,6 +171,12 @@ void addInfoCommand(CLI::App& app, int& exitCode) {
                    "The axis that is to point up, to which a USD file is turned, Y or Z (default Y)")
       ->check(oneOf({"Y", "Z"}))
       ->type_name("AXIS");
+  command
+      ->add_option("--scalp", typed->scalp,
+                   "A closed mesh in the groom's unit and place, an .obj, that roots are on (default: what "
+                   "the roots span)")
+      ->check(endsIn({".obj"}))
+      ->type_name("FILE");
   addOptionsOfKeys(*command, typed->groom, {"groom.root_end", "groom.points_per_strand"});
   command->add_option("--fix", typed->output, "File to write a mended groom to: .hair, .obj or .ply")
       ->check(endsIn({".obj", ".hair", ".ply"}))

@@ -3,19 +3,22 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "ringlet/groom/loaded_groom.h"
-#include "ringlet/groom/mend_groom.h"
+#include "ringlet/groom/treat_groom.h"
 #include "ringlet/measure/groom_inspection.h"
+#include "ringlet/measure/rest_crossings.h"
 #include "ringlet/run/run_report.h"
 
 namespace ringlet::program {
 
 /// What --fix did.
 struct FixedGroom {
-  MendedGroom mended;
+  TreatedGroom mended;
+  GroomInspection after;  // of the groom that is written
   std::vector<std::string> warnings;
 };
 
@@ -24,6 +27,7 @@ struct InfoReport {
   std::string unitFrom;  // file, option or default
   const LoadedGroom& loaded;
   const GroomInspection& found;
+  const std::optional<RestCrossings>& crossings;
   const FixedGroom* fixed;  // null without --fix
 
   double unit() const { return loaded.groom.metresPerUnit; }
