@@ -26,58 +26,58 @@
 namespace ringlet {
 namespace {
 
-constexpr std::size_t kHeaderSize = 160;
-constexpr std::size_t kStrandCountOffset = 4, kPointsPerStrandOffset = 8, kPositionsOffset = 12,
+constexpr std::size_t kTfxHeaderSize = 160;
+constexpr std::size_t kTfxStrandCountOffset = 4, kPointsPerStrandOffset = 8, kPositionsOffset = 12,
                       kFirstOtherOffset = 16, kReservedOffset = 32;
-constexpr std::uint64_t kPointSize = 16;
-constexpr float kVersion = 4;
+constexpr std::uint64_t kTfxPointSize = 16;
+constexpr float kTfxVersion = 4;
 constexpr std::uint32_t kMostPoints = 65536;  // in a strand; also what our generators allow
 
-struct Header {
+struct TfxHeader {
   float version;
   std::uint32_t strandCount, pointsPerStrand, positions;
   bool hasOtherArrays;
 
   // In 64 bits, where no two counts of the header can overflow it: 2^32 strands of 2^16 points of 2^4 bytes.
   std::uint64_t pointCount() const { return std::uint64_t{strandCount} * pointsPerStrand; }
-  std::uint64_t positionsEnd() const { return positions + kPointSize * pointCount(); }
+  std::uint64_t positionsEnd() const { return positions + kTfxPointSize * pointCount(); }
 };
 
 // What can be said before any position is read: the counts fit the file's real size.
-Result<Header> readHeader(std::span<const std::byte> bytes, const std::string& name) {
-  if (bytes.size() < kHeaderSize) {
+Result<TfxHeader> readTfxHeader(std::span<const std::byte> bytes, const std::string& name) {
+  if (bytes.size() < kTfxHeaderSize) {
     return Error{fmt::format("{}: at byte {}: the file ends here; expected a TressFX header of {} bytes",
-                             name, bytes.size(), kHeaderSize)};
+                             name, bytes.size(), kTfxHeaderSize)};
   }
-  Header header{readF32(bytes, 0), readU32(bytes, kStrandCountOffset), readU32(bytes, kPointsPerStrandOffset),
-                readU32(bytes, kPositionsOffset), false};
+  TfxHeader header{readF32(bytes, 0), readU32(bytes, kTfxStrandCountOffset),
+                   readU32(bytes, kPointsPerStrandOffset), readU32(bytes, kPositionsOffset), false};
   for (std::size_t offset = kFirstOtherOffset; offset < kReservedOffset; offset += 4)
     header.hasOtherArrays |= readU32(bytes, offset) != 0;
 
-  if (!(header.version >= kVersion && header.version < kVersion + 1)) {
+  if (!(header.version >= kTfxVersion && header.version < kTfxVersion + 1)) {
     return Error{fmt::format(
         "{}: at byte 0: found version {}; expected {:.1f}: no TressFX 4 file, or one of an older TressFX, to "
         "be exported anew",
-        name, header.version, kVersion)};
+        name, header.version, kTfxVersion)};
   }
   if (header.strandCount == 0) {
     return Error{
-        fmt::format("{}: at byte {}: found 0 strands; expected at least one", name, kStrandCountOffset)};
+        fmt::format("{}: at byte {}: found 0 strands; expected at least one", name, kTfxStrandCountOffset)};
   }
   if (header.pointsPerStrand < 2 || header.pointsPerStrand > kMostPoints) {
     return Error{fmt::format("{}: at byte {}: found {} points in every strand; expected 2 to {}", name,
                              kPointsPerStrandOffset, header.pointsPerStrand, kMostPoints)};
   }
-  if (header.positions < kHeaderSize) {
+  if (header.positions < kTfxHeaderSize) {
     return Error{
         fmt::format("{}: at byte {}: found positions at byte {}; expected {} or later, after the header",
-                    name, kPositionsOffset, header.positions, kHeaderSize)};
+                    name, kPositionsOffset, header.positions, kTfxHeaderSize)};
   }
   if (header.positionsEnd() > bytes.size()) {
     return Error{fmt::format(
         "{}: at byte {}: found {} strands of {} points with positions at byte {}, which end at byte {}; the "
         "file ends at byte {}",
-        name, kStrandCountOffset, header.strandCount, header.pointsPerStrand, header.positions,
+        name, kTfxStrandCountOffset, header.strandCount, header.pointsPerStrand, header.positions,
         header.positionsEnd(), bytes.size())};
   }
   if (header.pointCount() > std::numeric_limits<std::uint32_t>::max()) {
@@ -95,7 +95,7 @@ bool isInOnePlace(std::span<const Vec3f> strand) {
 
 Result<LoadedGroom> readTfx(std::span<const std::byte> bytes, const std::filesystem::path& path) {
   const std::string name = path.string();
-  const Result<Header> header = readHeader(bytes, name);
+  const Result<TfxHeader> header = readTfxHeader(bytes, name);
   if (!header) return header.error();
 
   LoadedGroom loaded;
@@ -105,8 +105,8 @@ Result<LoadedGroom> readTfx(std::span<const std::byte> bytes, const std::filesys
   std::size_t offset = header->positions;
   LeftOutStrands leftOut;
   for (std::uint32_t s = 0; s < header->strandCount; ++s) {
-    addStrandAt(bytes, {offset, kPointSize, header->pointsPerStrand}, s, groom, leftOut);
-    offset += kPointSize * std::size_t{header->pointsPerStrand};
+    addStrandAt(bytes, {offset, kTfxPointSize, header->pointsPerStrand}, s, groom, leftOut);
+    offset += kTfxPointSize * std::size_t{header->pointsPerStrand};
   }
 
   // What fills up the count has no length; a strand like that between others is the artist's affair.
@@ -127,9 +127,9 @@ Result<LoadedGroom> readTfx(std::span<const std::byte> bytes, const std::filesys
         "{}: left out the last {} of {} strands, whose points are all in one place: they fill up the count",
         name, left, header->strandCount));
   }
-  if (header->version != kVersion) {
+  if (header->version != kTfxVersion) {
     loaded.warnings.push_back(
-        fmt::format("{}: at byte 0: found version {}; read as {:.1f}", name, header->version, kVersion));
+        fmt::format("{}: at byte 0: found version {}; read as {:.1f}", name, header->version, kTfxVersion));
   }
   if (!header->hasOtherArrays && bytes.size() > header->positionsEnd()) {
     loaded.warnings.push_back(fmt::format("{}: {} bytes after the last array, from byte {} on; ignored", name,
