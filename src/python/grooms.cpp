@@ -262,7 +262,7 @@ void addGroomUses(GroomClass& groomClass) {
             withoutGil([&] { demand(writeGroom(path, self.groom())); });
           },
           py::arg("path"),
-          "Writes a .hair, .obj or .ply file; reading it gives the same bits. ringlet.Error for another "
+          "Writes a .hair, .obj, .ply or .abc file; reading it gives the same bits. ringlet.Error for another "
           "extension, a full disk.")
       .def("info", &infoOf,
            "What the groom is like, in metres: a dict of strands, particles, particles_per_strand, length "

@@ -34,7 +34,7 @@ void expectWriteError(const std::filesystem::path& path, const Groom& groom, con
 
 TEST(GroomFile, ChoosesByExtensionInAnyCase) {
   const auto folder = test::scratchFolder("groom_file");
-  for (const char* name : {"a.hair", "b.HAIR", "c.obj", "d.Obj", "e.f.obj"}) {
+  for (const char* name : {"a.hair", "b.HAIR", "c.obj", "d.Obj", "e.f.obj", "g.ply", "h.abc", "i.ABC"}) {
     ASSERT_TRUE(writeGroom(folder / name, test::awkwardGroom())) << name;
     const Result<LoadedGroom> loaded = readGroom(folder / name);
     ASSERT_TRUE(loaded) << loaded.error().message;
@@ -49,7 +49,7 @@ TEST(GroomFile, SaysWhatIsSupported) {
     expectReadError(name,
                     "supported are .hair, .obj, .usda, .usdc, .usd, .usdz, .abc, .tfx, .ply, .data and .bin");
     EXPECT_FALSE(isGroomFile(name));
-    expectWriteError(name, test::awkwardGroom(), "supported are .hair, .obj and .ply");
+    expectWriteError(name, test::awkwardGroom(), "supported are .hair, .obj, .ply and .abc");
   }
 }
 
@@ -83,7 +83,7 @@ TEST(GroomFile, RefusesAHugeFileWithoutReadingIt) {
 
 TEST(GroomFile, RefusesToWriteWhatCannotBeReadBack) {
   const auto folder = test::scratchFolder("groom_bad");
-  for (const char* name : {"a.hair", "a.obj"}) {
+  for (const char* name : {"a.hair", "a.obj", "a.ply", "a.abc"}) {
     expectWriteError(folder / name, Groom{}, "no strands");
     Groom point = test::awkwardGroom();
     point.addStrand(std::vector<Vec3f>{{1, 2, 3}});
@@ -115,7 +115,7 @@ TEST(GroomFile, AFullDiskIsReportedAndLeavesTheOldFile) {
   rlimit before{};
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-  for (const char* name : {"a.hair", "a.obj"}) {
+  for (const char* name : {"a.hair", "a.obj", "a.ply", "a.abc"}) {
     const auto path = folder / name;
     ASSERT_TRUE(writeGroom(path, test::awkwardGroom()));
     const std::string old = test::readText(path);
@@ -129,7 +129,7 @@ TEST(GroomFile, AFullDiskIsReportedAndLeavesTheOldFile) {
     EXPECT_EQ(test::readText(path), old);
   }
   std::signal(SIGXFSZ, handler);
-  EXPECT_EQ(test::fileCount(folder), 2);
+  EXPECT_EQ(test::fileCount(folder), 4);
 }
 
 }  // namespace

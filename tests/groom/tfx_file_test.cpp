@@ -164,7 +164,7 @@ TEST(TfxFile, IsChosenByExtensionAndReadOnly) {
 
   const Status status = writeGroom(folder / "b.tfx", loaded->groom);
   ASSERT_FALSE(status);
-  EXPECT_TRUE(contains(status.error().message, ".tfx is only read; supported are .hair, .obj and .ply"))
+  EXPECT_TRUE(contains(status.error().message, ".tfx is only read; supported are .hair, .obj, .ply and .abc"))
       << status.error().message;
   EXPECT_EQ(test::fileCount(folder), 1);
 }

@@ -178,7 +178,9 @@ void addInfoCommand(CLI::App& app, int& exitCode) {
       ->check(endsIn({".obj"}))
       ->type_name("FILE");
   addOptionsOfKeys(*command, typed->groom, {"groom.root_end", "groom.points_per_strand"});
-  command->add_option("--fix", typed->output, "File to write a mended groom to: .hair, .obj or .ply")
+  command
+      ->add_option("--fix", typed->output,
+                   std::string("File to write a mended groom to: ") + kWrittenGroomEndings)
       ->check(endsIn({".obj", ".hair", ".ply"}))
       ->type_name("OUT");
   command

@@ -49,7 +49,7 @@ ringlet_result ringlet_groom_read(const char* path, const ringlet_groom_reading*
 /* The groom, for ringlet_asset_build; it points into `from`, and is valid as long. */
 ringlet_result ringlet_loaded_groom_get(const ringlet_loaded_groom* from, ringlet_groom* groom);
 void ringlet_loaded_groom_release(ringlet_loaded_groom* groom);
-/* Writes .hair, .obj or .ply; reading it gives the same bits. */
+/* Writes .hair, .obj, .ply or .abc; reading it gives the same bits. */
 ringlet_result ringlet_groom_write(const char* path, const ringlet_groom* groom);
 
 /* Materials. */
@@ -171,13 +171,14 @@ typedef struct ringlet_animation_options {
   double metres_per_unit;   /* of the file; 0: the groom's */
   int up_is_z;              /* 1 if the file says that Z is up */
   double width;             /* of strands [m]; 0 means 0.0005 */
-  double tip_width;         /* at the tip, of USD; 0: as width */
-  uint32_t frame_count;     /* the most that will come, for which USD files keep room; 0 means 1000 */
-  int sixteen_bits;         /* 1 for the short form of .rgc */
+  double tip_width;         /* at the tip, of USD and Alembic; 0: as width */
+  uint32_t frame_count; /* the most that will come, for which USD and .abc files keep room; 0 means 1000 */
+  int sixteen_bits;     /* 1 for the short form of .rgc */
 } ringlet_animation_options;
 
-/* Begins PATH.partial, of .usda, .usdc, .rgc or .pc2 by the ending of `path`. Of the groom only the strands'
-   sizes and the unit count, and for ringlet_animation_add the number of particles. `options` may be NULL. */
+/* Begins PATH.partial, of .usda, .usdc, .abc, .rgc or .pc2 by the ending of `path`. Of the groom only the
+   strands' sizes and the unit count, and for ringlet_animation_add the number of particles. `options` may be
+   NULL. */
 ringlet_result ringlet_animation_create(const char* path, const ringlet_groom* groom,
                                         const ringlet_animation_options* options,
                                         ringlet_animation** animation);
@@ -199,7 +200,7 @@ typedef struct ringlet_frames_facts {
   uint32_t frame_count, strand_count;
   uint64_t particle_count;
 } ringlet_frames_facts;
-/* Opens a .usda, .usdc or .rgc that Ringlet wrote; of a .partial the frames that are whole. */
+/* Opens a .usda, .usdc, .abc or .rgc that Ringlet wrote; of a .partial the frames that are whole. */
 ringlet_result ringlet_frames_open(const char* path, ringlet_warn warn, void* user, ringlet_frames** frames);
 ringlet_result ringlet_frames_get(const ringlet_frames* frames, ringlet_frames_facts* facts);
 /* The next frame's points in the world, in the file's unit. After the last: an error. */

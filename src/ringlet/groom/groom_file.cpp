@@ -16,6 +16,7 @@
 #include "ringlet/base/file_ending.h"
 #include "ringlet/base/whole_file.h"
 #include "ringlet/groom/alembic/abc_groom.h"
+#include "ringlet/groom/alembic/abc_hair.h"
 #include "ringlet/groom/hair_file.h"
 #include "ringlet/groom/obj_file.h"
 #include "ringlet/groom/ply_file.h"
@@ -140,6 +141,8 @@ Status writeGroom(const std::filesystem::path& path, const Groom& groom) {
       return writeObj(path, groom);
     case Format::ply:
       return writePly(path, groom, groom.points);
+    case Format::abc:
+      return writeAbc(path, groom);
     default:
       return Error{fmt::format("{}: cannot write a groom: {} is only read; supported are {}", path.string(),
                                path.extension().string(), kWrittenGroomEndings)};

@@ -26,7 +26,7 @@ inline constexpr const char* kGroomEndings =
     ".hair, .obj, .usda, .usdc, .usd, .usdz, .abc, .tfx, .ply, .data and .bin";
 
 /// Those of them that can be written.
-inline constexpr const char* kWrittenGroomEndings = ".hair, .obj and .ply";
+inline constexpr const char* kWrittenGroomEndings = ".hair, .obj, .ply and .abc";
 
 /// Writes a groom so that reading it gives the same bits. An existing file is replaced only once all is
 /// written. Errors: another extension, a groom without strands, a strand of fewer than

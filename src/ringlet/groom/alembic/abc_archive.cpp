@@ -12,6 +12,7 @@
 #include "ringlet/base/little_endian.h"
 #include "ringlet/base/quoted.h"
 #include "ringlet/base/text_of.h"
+#include "ringlet/groom/alembic/abc_format.h"
 
 namespace ringlet {
 namespace {
@@ -21,24 +22,13 @@ constexpr std::uint32_t kOldestLibrary = 9999;  // 0.99.99, the first to write O
 constexpr std::size_t kMostAbcDepth = 64;
 constexpr std::size_t kMostAbcName = 1024;  // of an object or a property [bytes]
 constexpr std::size_t kBytesAnObject = 32;  // at least, in any file: its group, its header
-constexpr std::size_t kHashesSize = 32, kDigestSize = 16;
-constexpr std::uint32_t kTextInPlace = 255;
 // A time per cycle as long as this says that every sample has a time of its own.
 constexpr double kAcyclic = std::numeric_limits<double>::max() / 32;
-
-// A property's header.
-constexpr std::uint32_t kKindBits = 0x3, kSizeBits = 0xc, kHasSampling = 0x100, kHasChanged = 0x200,
-                        kIsConstant = 0x800;
-
-std::size_t sizeOfAbc(AbcType type) {
-  constexpr std::array<std::size_t, 14> kSizes{1, 1, 1, 2, 2, 4, 4, 8, 8, 2, 4, 8, 1, 4};
-  return kSizes[static_cast<std::size_t>(type)];
-}
 
 // Of the counts in a property's header [bytes].
 unsigned numberSizeOf(std::uint32_t bits) {
   constexpr std::array<unsigned, 4> kSizes{1, 2, 4, 4};
-  return kSizes[(bits & kSizeBits) >> 2];
+  return kSizes[(bits & kAbcSizeBits) >> 2];
 }
 
 }  // namespace
@@ -48,6 +38,11 @@ std::string_view nameOf(AbcType type) {
                                                     "uint32",  "int32",   "uint64", "int64",    "float16",
                                                     "float32", "float64", "text",   "wide text"};
   return kNames[static_cast<std::size_t>(type)];
+}
+
+std::size_t sizeOfAbc(AbcType type) {
+  constexpr std::array<std::size_t, 14> kSizes{1, 1, 1, 2, 2, 4, 4, 8, 8, 2, 4, 8, 1, 4};
+  return kSizes[static_cast<std::size_t>(type)];
 }
 
 std::string AbcProperty::path() const {
@@ -147,6 +142,9 @@ Status AbcArchive::readParts() {
   if (root->size() < kRootParts)
     return broken(fmt::format("found {} parts at its root; expected {}", root->size(), kRootParts));
   if (Status good = checkVersion(*root); !good) return good;
+  const auto metadata = file_.data((*root)[3]);
+  if (!metadata) return metadata.error();
+  metadata_ = textOf(*metadata);
   const auto samplings = file_.data((*root)[4]);
   if (!samplings) return samplings.error();
   if (Status read = readSamplings(*samplings); !read) return read;
@@ -196,13 +194,13 @@ Status AbcArchive::readTexts(std::span<const std::byte> bytes) {
     std::string_view text;
     if (!reading.take(1, size) || !reading.take(std::size_t{size}, text))
       return broken("its table of metadata ends early");
-    if (texts_.size() < kTextInPlace) texts_.push_back(text);
+    if (texts_.size() < kAbcTextInPlace) texts_.push_back(text);
   }
   return {};
 }
 
 Result<std::string_view> AbcArchive::metadataAt(Reading& reading, std::uint32_t index, unsigned size) const {
-  if (index != kTextInPlace) {
+  if (index != kAbcTextInPlace) {
     if (index < texts_.size()) return texts_[index];
     return broken(fmt::format("found metadata {}; expected at most {}", index, texts_.size() - 1));
   }
@@ -233,7 +231,7 @@ Status AbcArchive::addChildren(std::uint32_t parent) {
   if (parts.size() == 0) return {};
   const auto headers = file_.data(parts[parts.size() - 1]);
   if (!headers) return headers.error();
-  const std::size_t size = headers->size() - std::min(headers->size(), kHashesSize);
+  const std::size_t size = headers->size() - std::min(headers->size(), kAbcHashesBytes);
   Reading reading{headers->first(size)};
   const std::size_t last = parts.size() - 1, most = file_.byteCount() / kBytesAnObject;
   for (std::size_t child = 1; reading.left() > 0; ++child) {
@@ -309,19 +307,19 @@ Result<AbcProperty> AbcArchive::propertyAt(Reading& reading, const AbcProperty& 
   const auto early = [&] { return wrong(like.object, "the headers of its properties end early"); };
   std::uint32_t bits = 0, length = 0;
   if (!reading.take(4, bits)) return early();
-  const std::uint32_t kind = bits & kKindBits, type = bits >> 4 & 15;
+  const std::uint32_t kind = bits & kAbcKindBits, type = bits >> kAbcTypeShift & 15;
   property.kind = kind == 0 ? AbcKind::compound : kind == 1 ? AbcKind::scalar : AbcKind::array;
   if (type > static_cast<std::uint32_t>(AbcType::wideText))
     return wrong(like.object, fmt::format("found a property of type {}; expected at most 13", type));
   property.type = static_cast<AbcType>(type);
-  property.width = bits >> 12 & 255;
+  property.width = bits >> kAbcWidthShift & 255;
   const bool hasSamples = property.kind != AbcKind::compound;
   if (hasSamples && !readSampleNumbers(reading, bits, property)) return early();
   if (!reading.take(numberSizeOf(bits), length) || !reading.take(std::size_t{length}, property.name))
     return early();
   if (length > kMostAbcName)
     return wrong(like.object, fmt::format("found a property's name of {} bytes", length));
-  const auto metadata = metadataAt(reading, bits >> 20 & 255, numberSizeOf(bits));
+  const auto metadata = metadataAt(reading, bits >> kAbcMetadataShift & 255, numberSizeOf(bits));
   if (!metadata) return metadata.error();
   property.metadata = *metadata;
   const bool changesWithin = property.firstChanged > 0 && property.firstChanged <= property.lastChanged &&
@@ -337,13 +335,13 @@ Result<AbcProperty> AbcArchive::propertyAt(Reading& reading, const AbcProperty& 
 bool AbcArchive::readSampleNumbers(Reading& reading, std::uint32_t bits, AbcProperty& property) {
   const unsigned size = numberSizeOf(bits);
   if (!reading.take(size, property.sampleCount)) return false;
-  if ((bits & kHasChanged) != 0) {
+  if ((bits & kAbcHasChanged) != 0) {
     if (!reading.take(size, property.firstChanged) || !reading.take(size, property.lastChanged)) return false;
-  } else if ((bits & kIsConstant) == 0 && property.sampleCount > 1) {
+  } else if ((bits & kAbcIsConstant) == 0 && property.sampleCount > 1) {
     property.firstChanged = 1;
     property.lastChanged = property.sampleCount - 1;
   }
-  return (bits & kHasSampling) == 0 || reading.take(size, property.sampling);
+  return (bits & kAbcHasSampling) == 0 || reading.take(size, property.sampling);
 }
 
 Result<OgawaChild> AbcArchive::placeOfStored(const AbcProperty& property, std::uint32_t k) const {
@@ -362,7 +360,8 @@ Result<AbcSample> AbcArchive::stored(const AbcProperty& property, std::uint32_t 
   const auto data = file_.data(*place);
   if (!data) return data.error();
   if (property.type == AbcType::wideText) return wrong(property, "texts of wide characters are not read");
-  const AbcSample sample(property.type, property.width, data->subspan(std::min(data->size(), kDigestSize)));
+  const AbcSample sample(property.type, property.width,
+                         data->subspan(std::min(data->size(), kAbcDigestBytes)));
   if (property.type == AbcType::text) return sample;
   const std::size_t size = sizeOfAbc(property.type) * property.width;
   if (sample.bytes().size() % size != 0)

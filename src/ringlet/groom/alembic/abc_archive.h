@@ -44,6 +44,7 @@ enum class AbcType : std::uint8_t {
   wideText
 };
 std::string_view nameOf(AbcType type);
+std::size_t sizeOfAbc(AbcType type);  // of a value [bytes]
 
 struct AbcObject {
   std::uint32_t parent = 0;     // of the top object its own
@@ -117,6 +118,8 @@ class AbcArchive {
 
   const std::string& name() const { return file_.name(); }
   std::size_t byteCount() const { return file_.byteCount(); }
+  /// What the file says of itself, "key=value;key=value".
+  std::string_view metadata() const { return metadata_; }
   /// Parents first; the first is the top object.
   const std::vector<AbcObject>& objects() const { return objects_; }
   /// "/body/tube"; of the top object "/".
@@ -165,6 +168,7 @@ class AbcArchive {
   Error broken(const std::string& what) const;
 
   OgawaFile file_;
+  std::string_view metadata_{};
   std::vector<Sampling> samplings_{};
   std::vector<std::string_view> texts_{};  // by metadata index
   std::vector<AbcObject> objects_{};
