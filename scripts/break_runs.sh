@@ -35,7 +35,7 @@ END
 
 # Every job writes into the folder "out", and goes on there when it is called again.
 again=(--checkpoint 5 --resume --overwrite --quiet -o out)
-simulate() { exec "$ringlet" simulate scene.toml --cache float32 --also hair.usdc,hair.pc2 "${again[@]}"; }
+simulate() { exec "$ringlet" simulate scene.toml --cache float32 --also hair.usdc,hair.abc,hair.pc2 "${again[@]}"; }
 clips() { exec "$ringlet" simulate scene.toml --clips 10 --usd-values velocities --no-sheet "${again[@]}"; }
 ranks() {
   exec mpirun --oversubscribe -n 2 "$ringlet" simulate scene.toml --cache float32 --no-sheet --contacts explicit "${again[@]}"

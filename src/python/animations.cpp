@@ -114,7 +114,7 @@ double demandAbove(const char* name, double value) {
   return value;
 }
 
-// What only USD files have.
+// What only USD and Alembic files have.
 struct UsdChoice {
   std::optional<double> tipWidth{};  // [m]
   std::vector<std::string> values{};
@@ -129,9 +129,9 @@ UsdExtras usdExtrasOf(const UsdChoice& choice, const std::filesystem::path& path
     throw py::value_error(fmt::format("clip_frames must be 0 or, of a .usda, more; got {} for {}",
                                       choice.clipFrames, path.filename().string()));
   const bool isAsked = choice.tipWidth || !choice.values.empty() || choice.head != "baked";
-  if (isAsked && !(format && format->isUsd))
+  if (isAsked && !(format && format->hasValues))
     throw py::value_error(fmt::format("tip_width, values and head are of {}; got {}",
-                                      animationEndings(&AnimationFormat::isUsd, "and"),
+                                      animationEndings(&AnimationFormat::hasValues, "and"),
                                       path.filename().string()));
 
   UsdExtras extras{.clipFrames = choice.clipFrames};
@@ -144,7 +144,7 @@ UsdExtras usdExtrasOf(const UsdChoice& choice, const std::filesystem::path& path
       extras.rest = true;
     } else if (value == "velocities") {
       if (isText && choice.clipFrames == 0)
-        throw py::value_error("velocities are written into .usdc and clips only");
+        throw py::value_error("velocities are written into .usdc, .abc and clips only");
       extras.velocities = true;
     } else if (value == "unreal") {
       extras.unreal = true;
@@ -289,10 +289,10 @@ void addWriter(py::module_& module) {
       py::arg("frames") = 1000, py::arg("metres_per_unit") = py::none(), py::arg("up") = "Y",
       py::arg("width") = 0.0005, py::arg("precision") = "float32", py::arg("tip_width") = py::none(),
       py::arg("values") = std::vector<std::string>{}, py::arg("head") = "baked", py::arg("clip_frames") = 0,
-      "fps: frames per second; frames: the most that will come, for which USD files keep room; "
+      "fps: frames per second; frames: the most that will come, for which USD and .abc files keep room; "
       "metres_per_unit: of the file, None: the groom's; up: \"Y\" or \"Z\"; width: of strands [m]; "
-      "precision: of .rgc, \"float32\" or \"16bit\". Of .usda and .usdc: tip_width: of strands at the "
-      "tip [m], None: as width; values: of \"id\", \"rest\", \"unreal\" and \"velocities\" (.usdc and clips only); "
+      "precision: of .rgc, \"float32\" or \"16bit\". Of .usda, .usdc and .abc: tip_width: of strands at the "
+      "tip [m], None: as width; values: of \"id\", \"rest\", \"unreal\" and \"velocities\" (.usdc, .abc and clips only); "
       "head: where the motion of write()'s head is, \"baked\" into the points, as a \"transform\" of the "
       "prim, or \"none\"; clip_frames: frames of a value clip of a .usda, 0: one file. ringlet.Error "
       "where the file cannot be written.");

@@ -15,6 +15,7 @@
 #include "ringlet/groom/generate.h"
 #include "ringlet/groom/hair_file.h"
 #include "ringlet/groom/obj_file.h"
+#include "ringlet/output/alembic/abc_writer.h"
 #include "ringlet/output/cache_writer.h"
 #include "ringlet/output/checkpoint_file.h"
 #include "ringlet/output/usd/usd_writer.h"
@@ -309,6 +310,10 @@ Status writeAnimations(const fs::path& folder) {
     if (Status done = writeFrames(UsdcWriter::create(crate, groom, all), groom, isFinished); !done)
       return done;
     if (isFinished) fs::copy_file(crate, seed(folder, "usdc_file", "own"));
+    const fs::path archive = seed(folder, "abc_reader", name);
+    if (Status done = writeFrames(AbcWriter::create(archive, groom, all), groom, isFinished); !done)
+      return done;
+    if (isFinished) fs::copy_file(archive, seed(folder, "abc_groom", "own"));
   }
   return {};
 }

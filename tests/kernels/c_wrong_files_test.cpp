@@ -576,7 +576,7 @@ TEST_F(CWrongFiles, CallsInAWrongOrder) {
 
   ringlet_animation_options one = RINGLET_INIT(ringlet_animation_options);
   one.frame_count = 1;
-  for (const char* name : {"f.usda", "f.usdc", "f.rgc", "f.pc2"}) {
+  for (const char* name : {"f.usda", "f.usdc", "f.abc", "f.rgc", "f.pc2"}) {
     ASSERT_EQ(ringlet_animation_create((c.folder / name).c_str(), &c.groom, &one, &animation), RINGLET_OK);
     ASSERT_EQ(ringlet_animation_add(animation, c.xyz.data(), kParticles, nullptr), RINGLET_OK);
     expectInvalid(ringlet_animation_add(animation, c.xyz.data(), kParticles, nullptr), "frame_count");

@@ -15,9 +15,12 @@
 #include <string>
 #include <string_view>
 
+#include "ringlet/groom/alembic/abc_archive.h"
 #include "ringlet/groom/usd/usd_layer.h"
 #include "ringlet/groom/usd/usdc_file.h"
 #include "ringlet/groom/usd/usdc_format.h"
+#include "ringlet/output/alembic/abc_reader.h"
+#include "ringlet/output/alembic/abc_writer.h"
 #include "ringlet/output/cache_reader.h"
 #include "ringlet/output/cache_writer.h"
 #include "ringlet/output/usd/usd_reader.h"
@@ -241,6 +244,9 @@ std::vector<Format> formats() {
   const auto crateFrames = [&](const fs::path& path, std::string& warning) {
     return framesOf(UsdcReader::open(path), warning);
   };
+  const auto archiveFrames = [&](const fs::path& path, std::string& warning) {
+    return framesOf(AbcReader::open(path), warning);
+  };
   AnimationOptions more = options(kFrames);  // with a head that rests, so that its transform changes no bit
   more.usd = {
       .tipDiameter = 0.01f, .ids = true, .rest = true, .velocities = true, .head = UsdHead::transform};
@@ -248,6 +254,8 @@ std::vector<Format> formats() {
           formatOf<UsdWriter>("more.usda", more, usdFrames),
           formatOf<UsdcWriter>("hair.usdc", options(kFrames), crateFrames),
           formatOf<UsdcWriter>("more.usdc", more, crateFrames),
+          formatOf<AbcWriter>("hair.abc", options(kFrames), archiveFrames),
+          formatOf<AbcWriter>("more.abc", more, archiveFrames),
           formatOf<CacheWriter>("hair.rgc", CacheHeader{}, cacheFrames)};
 }
 
@@ -334,6 +342,38 @@ void expectWholeFrames(const fs::path& path, const std::string& where) {
   }
 }
 
+// Of an archive everything that it counts is there, and all that moves is counted alike; velocities come with
+// the next frame.
+void expectWholeArchive(const fs::path& path, int frames, const std::string& where) {
+  const std::string text = readText(path);
+  const auto archive = AbcArchive::of(std::as_bytes(std::span(text)), path.string());
+  ASSERT_TRUE(archive) << where << ": " << archive.error().message;
+  ASSERT_EQ(archive->objects().size(), 3u) << where;
+  const std::function<void(const Result<std::vector<AbcProperty>>&)> expectAll =
+      [&](const Result<std::vector<AbcProperty>>& properties) {
+        ASSERT_TRUE(properties) << where << ": " << properties.error().message;
+        for (const AbcProperty& property : *properties) {
+          if (property.kind == AbcKind::compound) {
+            expectAll(archive->propertiesOf(property));
+            continue;
+          }
+          for (std::uint32_t k = 0; k < property.storedCount(); ++k) {
+            const auto sample = archive->stored(property, k);
+            EXPECT_TRUE(sample) << where << ": " << sample.error().message;
+            EXPECT_TRUE(sample && !sample->bytes().empty()) << where << ": " << property.path();
+          }
+          if (property.sampling == 0) continue;
+          const bool isLater = property.name == ".velocities";
+          EXPECT_TRUE(static_cast<int>(property.sampleCount) == frames ||
+                      (isLater && static_cast<int>(property.sampleCount) == std::max(frames - 1, 0)))
+              << where << ": " << property.path() << " has " << property.sampleCount << " samples of "
+              << frames;
+        }
+      };
+  for (std::uint32_t object = 0; object < archive->objects().size(); ++object)
+    expectAll(archive->propertiesOf(object));
+}
+
 // By the order of what is patched: a frame is there once all of it is.
 TEST(TornFiles, AWriterMayBeKilledBetweenAnyTwoWrites) {
   for (const Format& format : formats()) {
@@ -351,18 +391,67 @@ TEST(TornFiles, AWriterMayBeKilledBetweenAnyTwoWrites) {
       int status = 0;
       waitpid(child, &status, 0);
       ASSERT_TRUE(WIFEXITED(status));
-      if (WEXITSTATUS(status) == 1) break;
-      if (!fs::exists(partial)) continue;
       std::string warning;
+      if (WEXITSTATUS(status) == 1) {
+        most = std::max(most, format.wholeFrames(path, warning));  // the last write may be that of a frame
+        break;
+      }
+      if (!fs::exists(partial)) continue;
       const int frames = format.wholeFrames(partial, warning);
       const std::string where = "after " + std::to_string(killed) + " writes";
       EXPECT_GE(frames, most) << where;
       EXPECT_TRUE(warning.empty() || frames == kFrames) << where << ": " << warning;
       most = std::max(most, frames);
       if (std::string_view(format.name).ends_with(".usdc") && frames >= 0) expectWholeFrames(partial, where);
+      if (std::string_view(format.name).ends_with(".abc") && frames >= 0)
+        expectWholeArchive(partial, frames, where);
     }
     EXPECT_EQ(most, kFrames);
     EXPECT_GE(killed, kFrames);
+  }
+}
+
+// So may one that goes on with a file, or with a finished one: the frames up to there are never lost, and the
+// next writer comes to the same bytes.
+TEST(TornFiles, AWriterThatGoesOnMayBeKilledBetweenAnyTwoWrites) {
+  for (const Format& format : formats()) {
+    if (!std::string_view(format.name).ends_with(".abc")) continue;
+    for (const bool wasFinished : {false, true}) {
+      for (const int from : {1, 2, 3}) {
+        SCOPED_TRACE(testing::Message()
+                     << format.name << " from " << from << (wasFinished ? ", finished" : ""));
+        const fs::path path = scratchFolder(std::string("torn_again_") + format.name) / format.name,
+                       partial = path.string() + ".partial";
+        format.write(path, kFrames, true);
+        const std::string finished = readText(path);
+        int killed = 0;
+        for (;; ++killed) {
+          fs::remove(path);
+          fs::remove(partial);
+          format.write(path, 3, wasFinished);
+          const pid_t child = fork();
+          if (child == 0) {
+            writesLeft = killed;
+            (void)format.resume(path, from, kFrames);
+            _exit(1);
+          }
+          int status = 0;
+          waitpid(child, &status, 0);
+          ASSERT_TRUE(WIFEXITED(status));
+          if (WEXITSTATUS(status) == 1) break;
+          const std::string where = "after " + std::to_string(killed) + " writes";
+          const fs::path left = fs::exists(partial) ? partial : path;
+          std::string warning;
+          const int frames = format.wholeFrames(left, warning);
+          EXPECT_GE(frames, from) << where;
+          EXPECT_TRUE(warning.empty()) << where << ": " << warning;
+          expectWholeArchive(left, frames, where);
+          ASSERT_TRUE(format.resume(path, from, kFrames)) << where;
+          EXPECT_TRUE(readText(path) == finished) << where;
+        }
+        EXPECT_GE(killed, 10);
+      }
+    }
   }
 }
 

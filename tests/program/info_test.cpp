@@ -361,7 +361,7 @@ TEST_F(UsdGroom, IsConverted) {
     int exitCode;
     const char* part;
   };
-  for (const Case& c : {Case{{"plain.usda", "c.rgc"}, 1, "supported are .hair, .obj and .ply"},
+  for (const Case& c : {Case{{"plain.usda", "c.rgc"}, 1, "supported are .hair, .obj, .ply and .abc"},
                         Case{{"plain.usda"}, 2, "name the file to write"},
                         Case{{"plain.usda", "c.obj", "--frame", "1"}, 2, "a groom has no frames"},
                         Case{{"plain.usda", "--info"}, 1, "`ringlet info`"}}) {

@@ -91,8 +91,8 @@ TEST_F(Outputs, AreThoseThatWereAskedFor) {
        {Case{{}, {"hair.usda", "last.obj", "sheet.png"}}, Case{{"--no-last"}, {"hair.usda", "sheet.png"}},
         Case{{"--no-sheet"}, {"hair.usda", "last.obj"}},
         Case{{"--usdc", "--no-usd", "--no-last", "--no-sheet"}, {"hair.usdc"}},
-        Case{{"--also", "hair.pc2,hair.usdc", "--no-usd", "--no-last", "--no-sheet"},
-             {"hair.obj", "hair.pc2", "hair.usdc"}},
+        Case{{"--also", "hair.pc2,hair.usdc,hair.abc", "--no-usd", "--no-last", "--no-sheet"},
+             {"hair.abc", "hair.obj", "hair.pc2", "hair.usdc"}},
         Case{{"--usdc", "--cache", "16bit"}, {"hair.rgc", "hair.usda", "hair.usdc", "last.obj", "sheet.png"}},
         Case{{"--clips", "2", "--no-last", "--no-sheet"},
              {"hair.usda", "hair_clips/hair.0001.usdc", "hair_clips/hair.0002.usdc",
@@ -133,7 +133,8 @@ TEST_F(Outputs, AreWhatConvertMakesOfTheCache) {
 
 // The hairs are those that `convert --hairs` makes of the same run; the strands stay in last.obj.
 TEST_F(Outputs, HairsThatFollowAreInEveryAnimation) {
-  const std::vector<std::string> formats{"--usdc", "--cache", "float32", "--motion", "nod"};
+  const std::vector<std::string> formats{"--usdc",  "--also",   "hair.abc", "--cache",
+                                         "float32", "--motion", "nod"};
   const auto simulateInto = [&](const std::string& folder, std::vector<std::string> more) {
     more.insert(more.end(), formats.begin(), formats.end());
     more.insert(more.end(), {"-o", folder});
@@ -155,7 +156,8 @@ TEST_F(Outputs, HairsThatFollowAreInEveryAnimation) {
   };
   const std::string expected = frameOf("strands/hair.rgc", {"--hairs", "50", "--groom", "groom.obj"});
   EXPECT_NE(expected, frameOf("strands/hair.rgc", {}));
-  for (const char* file : {"hairs/hair.usda", "hairs/hair.usdc", "hairs/hair.rgc", "clips/hair.rgc"})
+  for (const char* file :
+       {"hairs/hair.usda", "hairs/hair.usdc", "hairs/hair.abc", "hairs/hair.rgc", "clips/hair.rgc"})
     EXPECT_EQ(frameOf(file, {}), expected) << file;
   EXPECT_EQ(frameOf("clips/hair_clips/hair.0002.usdc", {}, "2"), expected);
 }
@@ -273,13 +275,13 @@ TEST_F(Outputs, UnrealHasTheGroupsOfTheScene) {
 TEST_F(Outputs, TheSceneSaysWhatOptionsSay) {
   std::ofstream(folder_ / "scene.toml")
       << "[groom]\nfile = 'groom.obj'\n[motion]\nkind = 'shake'\n[output]\nfolder = 'scene'\n"
-         "files = ['hair.usdc', 'hair.usda']\ntip_width = 0.0001\nvalues = ['id', 'rest', 'velocities']\n"
+         "files = ['hair.usdc', 'hair.usda', 'hair.abc']\ntip_width = 0.0001\nvalues = ['id', 'rest', 'velocities']\n"
          "head = 'transform'\nhairs = 20\n";
   auto result = simulate("scene.toml", {});
   ASSERT_EQ(result.exitCode, 0) << result.err;
-  result =
-      simulate("groom.obj", {"--usdc", "--no-last", "--no-sheet", "--tip-width", "0.0001", "--usd-values",
-                             "id,rest,velocities", "--head", "transform", "--hairs", "20", "-o", "typed"});
+  result = simulate("groom.obj", {"--usdc", "--also", "hair.abc", "--no-last", "--no-sheet", "--tip-width",
+                                  "0.0001", "--usd-values", "id,rest,velocities", "--head", "transform",
+                                  "--hairs", "20", "-o", "typed"});
   ASSERT_EQ(result.exitCode, 0) << result.err;
   EXPECT_EQ(filesIn("scene"), filesIn("typed"));
   for (const std::string& file : filesIn("typed"))
@@ -288,7 +290,8 @@ TEST_F(Outputs, TheSceneSaysWhatOptionsSay) {
 
 // Wherever the head's motion is, the hair is in the same place.
 TEST_F(Outputs, TheHeadsMotionIsBakedOrApart) {
-  const std::vector<std::string> motion{"--motion", "nod", "--usdc", "--cache", "float32"};
+  const std::vector<std::string> motion{"--motion", "nod",     "--usdc", "--also",
+                                        "hair.abc", "--cache", "float32"};
   const auto readAll = [&](const std::string& file) {
     std::vector<std::vector<Vec3f>> frames;
     auto reader = AnimationReader::open(folder_ / file);
@@ -308,7 +311,7 @@ TEST_F(Outputs, TheHeadsMotionIsBakedOrApart) {
     const std::string folder = head;
     if (folder == "baked") baked = readAll("baked/hair.rgc");
     EXPECT_TRUE(readAll(folder + "/hair.rgc") == baked);
-    for (const char* file : {"/hair.usda", "/hair.usdc"}) {
+    for (const char* file : {"/hair.usda", "/hair.usdc", "/hair.abc"}) {
       const auto frames = readAll(folder + file);
       ASSERT_EQ(frames.size(), baked.size());
       for (std::size_t frame = 0; frame < frames.size(); ++frame) {
@@ -375,7 +378,7 @@ TEST_F(Outputs, AWrongCommandLineIsSaid) {
 // What a killed run leaves in every format that simulate writes is refused by the next, and gone on with from
 // a checkpoint to the bytes of a run without a break.
 TEST_F(Outputs, AKilledRunGoesOnInEveryFormat) {
-  const std::vector<std::string> all{"--usdc",  "--also",       "hair.pc2",     "--cache",
+  const std::vector<std::string> all{"--usdc",  "--also",       "hair.pc2,hair.abc", "--cache",
                                      "float32", "--usd-values", "id,velocities"};
   for (const std::vector<std::string>& ways :
        {std::vector<std::string>{}, {"--clips", "3"}, {"--hairs", "40"}}) {
@@ -409,14 +412,16 @@ TEST_F(Outputs, AKilledRunGoesOnInEveryFormat) {
     }
     const auto refused = run(with({"-o", "broken"}));
     EXPECT_EQ(refused.exitCode, 5);
-    for (const std::string file : {"hair.usda", "hair.usdc", "hair.rgc"}) {
+    for (const std::string file : {"hair.usda", "hair.usdc", "hair.abc", "hair.rgc"}) {
       if (!fs::exists(folder_ / "broken" / file)) {
         EXPECT_NE(refused.err.find(file + ".partial"), std::string::npos) << refused.err;
       }
     }
-    auto left = AnimationReader::open(folder_ / "broken/hair.usdc.partial");
-    ASSERT_TRUE(left) << left.error().message;
-    EXPECT_GE(left->frameCount(), 10);
+    for (const char* partial : {"broken/hair.usdc.partial", "broken/hair.abc.partial"}) {
+      auto left = AnimationReader::open(folder_ / partial);
+      ASSERT_TRUE(left) << left.error().message;
+      EXPECT_GE(left->frameCount(), 10) << partial;
+    }
     const auto resumed = run(with({"-o", "broken", "--resume"}));
     ASSERT_EQ(resumed.exitCode, 0) << resumed.err;
     EXPECT_EQ(filesIn("broken"), filesIn("whole"));

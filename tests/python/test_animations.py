@@ -10,7 +10,7 @@ def frames_of(groom, count=3):
     return [(groom.points + np.float32(k)) for k in range(count)]
 
 
-@pytest.mark.parametrize("name", ["hair.usda", "hair.usdc", "hair.rgc"])
+@pytest.mark.parametrize("name", ["hair.usda", "hair.usdc", "hair.abc", "hair.rgc"])
 def test_points_are_read_as_they_were_written(tmp_path, swatch, name):
     with ringlet.AnimationWriter(tmp_path / name, swatch, fps=30, frames=5, up="Z", width=0.001) as animation:
         for points in frames_of(swatch):
@@ -29,7 +29,7 @@ def test_points_are_read_as_they_were_written(tmp_path, swatch, name):
 
 
 def test_every_format_is_listed_and_written(tmp_path, swatch):
-    assert {".usda", ".usdc", ".rgc", ".pc2"} <= set(ringlet.AnimationWriter.formats())
+    assert {".usda", ".usdc", ".abc", ".rgc", ".pc2"} <= set(ringlet.AnimationWriter.formats())
     for ending in ringlet.AnimationWriter.formats():
         with ringlet.AnimationWriter(tmp_path / ("hair" + ending), swatch) as animation:
             animation.write_points(swatch.points)
@@ -48,9 +48,9 @@ def test_16_bits_are_as_near_as_they_say(tmp_path, swatch):
 
 def test_positions_seen_from_a_head_are_the_programs_file(device, program):
     (program.folder / "scene.toml").write_text(SCENES["pre-roll"])
-    told = program("simulate", "scene.toml", "-o", "out", "--untuned", "--quiet", "--usdc", "--cache", "float32")
+    told = program("simulate", "scene.toml", "-o", "out", "--untuned", "--quiet", "--usdc", "--also", "hair.abc", "--cache", "float32")
     scene = ringlet.Scene.load(program.folder / "scene.toml")
-    for name in ("hair.usda", "hair.usdc", "hair.rgc"):
+    for name in ("hair.usda", "hair.usdc", "hair.abc", "hair.rgc"):
         with ringlet.AnimationWriter(program.folder / name, scene.groom, frames=told["frames"]) as animation:
             scene.run(lambda frame: animation.write(frame.positions, frame.head), device=device)
         assert (program.folder / name).read_bytes() == (program.folder / "out" / name).read_bytes(), name
@@ -61,6 +61,9 @@ USD_CHOICES = {
     "values": ("hair.usdc", ["--usd-values", "id,rest,velocities", "--tip-width", "0.0001"],
                {"values": ["id", "rest", "velocities"], "tip_width": 0.0001}),
     "transform": ("hair.usdc", ["--head", "transform"], {"head": "transform"}),
+    "values of Alembic": ("hair.abc", ["--usd-values", "id,rest,velocities", "--tip-width", "0.0001"],
+                          {"values": ["id", "rest", "velocities"], "tip_width": 0.0001}),
+    "transform of Alembic": ("hair.abc", ["--head", "transform"], {"head": "transform"}),
     "no head": ("hair.usdc", ["--head", "none"], {"head": "none"}),
     "clips": ("hair.usda", ["--clips", "3", "--usd-values", "velocities"], {"clip_frames": 3, "values": ["velocities"]}),
 }
@@ -70,7 +73,7 @@ USD_CHOICES = {
 def test_what_usd_holds_beside_points_is_the_programs(device, program, choice):
     name, options, arguments = USD_CHOICES[choice]
     (program.folder / "scene.toml").write_text(SCENES["pre-roll"])
-    told = program("simulate", "scene.toml", "-o", "out", "--untuned", "--quiet", "--usdc", *options)
+    told = program("simulate", "scene.toml", "-o", "out", "--untuned", "--quiet", "--usdc", "--also", "hair.abc", *options)
     scene = ringlet.Scene.load(program.folder / "scene.toml")
     with ringlet.AnimationWriter(program.folder / name, scene.groom, frames=told["frames"], **arguments) as animation:
         scene.run(lambda frame: animation.write(frame.positions, frame.head), device=device)
@@ -96,7 +99,7 @@ def test_after_an_exception_the_frames_so_far_are_kept(tmp_path, swatch):
 
 
 def test_a_partial_file_is_read_as_far_as_it_goes(tmp_path, swatch):
-    for name in ("hair.usda", "hair.usdc", "hair.rgc"):
+    for name in ("hair.usda", "hair.usdc", "hair.abc", "hair.rgc"):
         animation = ringlet.AnimationWriter(tmp_path / name, swatch, frames=9)
         for points in frames_of(swatch):
             animation.write_points(points)

@@ -484,8 +484,8 @@ def test_writers(tmp_path, groom):
                          ("x.usdc", {"head": "bake"})):
         with pytest.raises(ValueError):
             ringlet.AnimationWriter(tmp_path / name, groom, **values)
-    for name in ("x", "x.abc", "x.obj"):
-        with pytest.raises(ValueError, match=r"\.usda, \.usdc, \.rgc, \.pc2"):
+    for name in ("x", "x.fbx", "x.obj"):
+        with pytest.raises(ValueError, match=r"\.usda, \.usdc, \.abc, \.rgc, \.pc2"):
             ringlet.AnimationWriter(tmp_path / name, groom)
     writer = ringlet.AnimationWriter(tmp_path / "x.rgc", groom)
     with pytest.raises(TypeError):

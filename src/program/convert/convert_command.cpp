@@ -42,6 +42,7 @@ constexpr const char* kConvertExample =
     "  ringlet convert out/hair.usda hair.rgc\n"
     "  ringlet convert out/hair.rgc hair.usdc                    USD in a third of the bytes, any frame at "
     "once\n"
+    "  ringlet convert out/hair.rgc hair.abc                     Alembic\n"
     "  ringlet convert out/hair.rgc frames/ --frames 1:24        frames/hair.0001.obj to hair.0024.obj\n"
     "  ringlet convert out/hair.rgc pose.obj --frame 12\n"
     "  ringlet convert out/hair.rgc frames.ply                   frames.0001.ply and so on\n"
@@ -50,10 +51,10 @@ constexpr const char* kConvertExample =
     "  ringlet convert out/hair.rgc sheet.png\n"
     "  ringlet convert out/hair.rgc full.usdc --hairs 20000 --groom groom.obj\n"
     "  ringlet convert out/hair.rgc.partial --info               of a run that was cut short, or goes on\n"
-    "  ringlet convert groom.usdc groom.hair                     another program's groom; .hair, .obj or "
-    ".ply\n"
+    "  ringlet convert groom.usdc groom.hair                     another program's groom; .hair, .obj, "
+    ".ply or .abc\n"
     "\n"
-    "OUT's ending says what becomes of it. .usda, .usdc, .rgc and .png count frames from 1 again; the names "
+    "OUT's ending says what becomes of it. .usda, .usdc, .abc, .rgc and .png count frames from 1 again; the names "
     "of .obj\n"
     "files keep the animation's numbers. Damaged frames are refused, whole ones beside them can be had with\n"
     "--frames. A file that was not finished is read as far as it goes, and a warning says so.\n"
@@ -169,19 +170,18 @@ void checkOptions(const TypedConvert& typed) {
     throw CLI::ValidationError("--precision", "only a cache, .rgc, has one");
   const std::string extension = typed.output.extension().string();
   if (typed.clips && extension != ".usda") throw CLI::ValidationError("--clips", "only a .usda has clips");
-  if ((!typed.values.empty() || typed.tipWidth) && !(format && format->isUsd))
+  if ((!typed.values.empty() || typed.tipWidth) && !(format && format->hasValues))
     throw CLI::ValidationError(typed.tipWidth ? "--tip-width" : "--usd-values",
-                               "only " + animationEndings(&AnimationFormat::isUsd, "and") + " have it");
+                               "only " + animationEndings(&AnimationFormat::hasValues, "and") + " have it");
   if (has(typed, "velocities") && extension == ".usda" && !typed.clips)
-    throw CLI::ValidationError("--usd-values", "velocities are written into .usdc and clips only");
+    throw CLI::ValidationError("--usd-values", "velocities are written into .usdc, .abc and clips only");
 }
 
 UsdExtras usdExtras(const TypedConvert& typed, double metresPerUnit) {
-  UsdExtras extras{
-      .ids = has(typed, "id"),
-      .velocities = has(typed, "velocities"),
-      .unreal = has(typed, "unreal"),
-      .clipFrames = typed.clips.value_or(0)};
+  UsdExtras extras{.ids = has(typed, "id"),
+                   .velocities = has(typed, "velocities"),
+                   .unreal = has(typed, "unreal"),
+                   .clipFrames = typed.clips.value_or(0)};
   if (typed.tipWidth) extras.tipDiameter = static_cast<float>(*typed.tipWidth / metresPerUnit);
   return extras;
 }
@@ -311,7 +311,7 @@ int run(const TypedConvert& typed) {
   if (isGroom && (typed.frame || !typed.frames.empty() || !typed.precision.empty()))
     throw CLI::ValidationError("IN", "a groom has no frames and no precision");
   if (isGroom && !typed.info && typed.output.empty())
-    throw CLI::ValidationError("OUT", "name the file to write, .hair, .obj or .ply");
+    throw CLI::ValidationError("OUT", std::string("name the file to write, ") + kWrittenGroomEndings);
   if (isGroom && (!typed.groom.empty() || !typed.scene.empty()))
     throw CLI::ValidationError(typed.groom.empty() ? "--scene" : "--groom",
                                "IN is a groom itself; only the hairs of an animation need one");
@@ -337,7 +337,7 @@ void addConvertCommand(CLI::App& app, int& exitCode) {
                   keysHelp(animationKeys(), "--json keys with --info:") + kConvertExitHelp);
   command
       ->add_option("IN", typed->input,
-                   "An animation: hair.usda, hair.usdc or hair.rgc, or their .partial; or a groom")
+                   "An animation: hair.usda, hair.usdc, hair.abc or hair.rgc, or their .partial; or a groom")
       ->required()
       ->type_name("FILE");
   command
@@ -362,15 +362,15 @@ void addConvertCommand(CLI::App& app, int& exitCode) {
   command
       ->add_option(
           "--usd-values", typed->values,
-          "What .usda and .usdc have beside points and widths, separated by commas: id (a number of each "
-          "strand), velocities (.usdc and clips only), unreal (what Unreal reads of a groom)")
+          "What .usda, .usdc and .abc have beside points and widths, separated by commas: id (a number of each "
+          "strand), velocities (.usdc, .abc and clips only), unreal (what Unreal reads of a groom)")
       ->delimiter(',')
       ->check(oneOf({"id", "velocities", "unreal"}))
       ->type_name("LIST");
   command
       ->add_option(
           "--tip-width", typed->tipWidth,
-          "Diameter at the tip in .usda and .usdc, metres: strands are evenly thinner from the root on")
+          "Diameter at the tip in .usda, .usdc and .abc, metres: strands are evenly thinner from the root on")
       ->check(between(1e-9, 1))
       ->type_name("METRES");
   command

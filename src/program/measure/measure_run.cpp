@@ -115,7 +115,7 @@ Result<std::filesystem::path> fileOf(const std::filesystem::path& path) {
   const std::filesystem::path file = animationIn(path);
   if (file.empty())
     return Error{fmt::format(
-        "{} holds no hair.usda, hair.usdc or hair.rgc; is it a folder that `ringlet simulate` wrote?",
+        "{} holds no hair.usda, hair.usdc, hair.abc or hair.rgc; is it a folder that `ringlet simulate` wrote?",
         path.string())};
   return file;
 }

@@ -68,13 +68,13 @@ Result<std::filesystem::path> animationOf(const std::filesystem::path& input) {
   std::error_code code;
   if (!std::filesystem::is_directory(input, code)) return input;
   for (const char* suffix : {"", ".partial"})
-    for (const char* name : {"hair.rgc", "hair.usdc", "hair.usda"}) {
+    for (const char* name : {"hair.rgc", "hair.usdc", "hair.abc", "hair.usda"}) {
       const auto path = input / (std::string(name) + suffix);
       if (std::filesystem::exists(path, code)) return path;
     }
   return Error{
       fmt::format(
-          "{} holds no hair.rgc, hair.usdc or hair.usda; name a folder that `ringlet simulate` wrote, or an "
+          "{} holds no hair.rgc, hair.usdc, hair.abc or hair.usda; name a folder that `ringlet simulate` wrote, or an "
           "animation, a scene or a groom",
           input.string()),
       Fault::input};
@@ -93,7 +93,7 @@ Status setCamera(RenderPlan& plan, const SceneFile& scene, const std::string& na
 Status simulate(const LoadedScene& scene, const SceneFile& file, const RenderOptions& typed,
                 const ComputeDevice& device) {
   // A cache in it may be that of an earlier picture; of a run's other files none is written here.
-  for (const char* name : {"hair.usda", "hair.usdc", "last.obj", "sheet.png", "checkpoint.rgk"}) {
+  for (const char* name : {"hair.usda", "hair.usdc", "hair.abc", "last.obj", "sheet.png", "checkpoint.rgk"}) {
     std::error_code code;
     if (!std::filesystem::exists(typed.output / name, code)) continue;
     return Error{

@@ -156,7 +156,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
   command
       .add_option(
           "IN", options.input,
-          "A folder that simulate wrote, an animation (.rgc, .usdc, .usda), a scene (.toml) or a groom")
+          "A folder that simulate wrote, an animation (.rgc, .usdc, .abc, .usda), a scene (.toml) or a groom")
       ->required()
       ->type_name("PATH");
   command

@@ -69,9 +69,10 @@ void applyOutputOptions(const OutputChoice& choice, SceneOutput& output) {
 }
 
 void checkOutputs(const SceneOutput& output) {
-  if (holds(output.values, "velocities") && !holds(output.files, "hair.usdc") && !output.clipFrames)
+  if (holds(output.values, "velocities") && !holds(output.files, "hair.usdc") &&
+      !holds(output.files, "hair.abc") && !output.clipFrames)
     throw CLI::ValidationError("--usd-values",
-                               "velocities are written into hair.usdc and clips only; add --usdc");
+                               "velocities are written into hair.usdc, hair.abc and clips only; add --usdc");
   if (output.clipFrames && !holds(output.files, "hair.usda"))
     throw CLI::ValidationError("--clips", "only hair.usda has clips; leave out --no-usd");
   if (!output.hairs &&

@@ -37,9 +37,9 @@ Outcome optionsOf(const ringlet_animation_options& from, const AnimationFormat* 
   if (from.frame_count > kMostFrames)
     return Outcome::invalid(
         fmt::format("frame_count is {}; it takes at most {}", from.frame_count, kMostFrames));
-  if (from.tip_width != 0 && format && !format->isUsd)
+  if (from.tip_width != 0 && format && !format->hasValues)
     return Outcome::invalid(
-        fmt::format("tip_width is of {}", animationEndings(&AnimationFormat::isUsd, "and")));
+        fmt::format("tip_width is of {}", animationEndings(&AnimationFormat::hasValues, "and")));
   options.up = from.up_is_z ? UpAxis::z : UpAxis::y;
   options.diameter = static_cast<float>(width / options.metresPerUnit);
   if (from.tip_width != 0) options.usd.tipDiameter = static_cast<float>(tipWidth / options.metresPerUnit);

@@ -43,6 +43,7 @@ bool holdsAnimation(const fs::path& path) {
     return isAnimation(path);
   std::error_code code;
   if (!fs::is_regular_file(path, code)) return false;  // nor would a pipe ever be opened
+  if (path.extension() == ".abc") return AbcReader::isOurs(path);
   return path.extension() == ".usda" ? beginsAsText(path) : UsdcReader::isOurs(path);
 }
 
@@ -66,17 +67,18 @@ Result<AnimationReader> AnimationReader::open(const fs::path& path) {
     return source;
   };
   if (extension == ".rgc") return made(CacheReader::open(path));
+  if (extension == ".abc") return made(AbcReader::open(path));
   return extension == ".usdc" ? made(UsdcReader::open(path)) : made(UsdReader::open(path));
 }
 
-void AnimationReader::takeHeader(const auto& usd) {
+void AnimationReader::takeHeader(const auto& reader) {
   header_ = {.precision = CachePrecision::float32,
-             .up = usd.up(),
-             .diameter = usd.diameter(),
-             .framesPerSecond = usd.framesPerSecond(),
-             .metresPerUnit = usd.metresPerUnit()};
-  frameCount_ = usd.frameCount();
-  warnings_ = usd.warnings();
+             .up = reader.up(),
+             .diameter = reader.diameter(),
+             .framesPerSecond = reader.framesPerSecond(),
+             .metresPerUnit = reader.metresPerUnit()};
+  frameCount_ = reader.frameCount();
+  warnings_ = reader.warnings();
 }
 
 void AnimationReader::take(const UsdReader& usd) {
@@ -94,6 +96,11 @@ void AnimationReader::take(const UsdcReader& usd) {
   takeHeader(usd);
 }
 
+void AnimationReader::take(const AbcReader& abc) {
+  groom_.firstPoint = abc.firstPoint();
+  takeHeader(abc);
+}
+
 void AnimationReader::take(const CacheReader& cache) {
   groom_.firstPoint = cache.firstPoint();
   header_ = cache.header();
@@ -103,12 +110,13 @@ void AnimationReader::take(const CacheReader& cache) {
 }
 
 const char* AnimationReader::formatName() const {
-  constexpr std::array<const char*, std::variant_size_v<Reader>> kNames{"USD text", "USD crate", "cache"};
+  constexpr std::array<const char*, std::variant_size_v<Reader>> kNames{"USD text", "USD crate", "Alembic",
+                                                                        "cache"};
   return kNames[reader_.index()];
 }
 
 const char* AnimationReader::formatKey() const {
-  constexpr std::array<const char*, std::variant_size_v<Reader>> kKeys{"usd", "usdc", "cache"};
+  constexpr std::array<const char*, std::variant_size_v<Reader>> kKeys{"usd", "usdc", "abc", "cache"};
   return kKeys[reader_.index()];
 }
 
@@ -124,6 +132,7 @@ Status AnimationReader::readFrame(int frame) {
   }
   latest_ = frame;
   if (auto* crate = std::get_if<UsdcReader>(&reader_)) return crate->readFrame(frame, groom_.points);
+  if (auto* archive = std::get_if<AbcReader>(&reader_)) return archive->readFrame(frame, groom_.points);
   return std::get<CacheReader>(reader_).readFrame(frame, groom_.points);
 }
 

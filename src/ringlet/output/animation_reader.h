@@ -10,6 +10,7 @@
 
 #include "ringlet/base/result.h"
 #include "ringlet/groom/groom.h"
+#include "ringlet/output/alembic/abc_reader.h"
 #include "ringlet/output/cache_format.h"
 #include "ringlet/output/cache_reader.h"
 #include "ringlet/output/usd/usd_reader.h"
@@ -20,7 +21,7 @@ namespace ringlet {
 /// Whether the name is that of an animation: one of animationFormats() that is read, and .partial after it.
 bool isAnimation(const std::filesystem::path& path);
 
-/// Whether it can be one by its name and, of .usda and .usdc, which others write too, by how it begins.
+/// Whether it can be one by its name and, of .usda, .usdc and .abc, which others write too, by how it begins.
 bool holdsAnimation(const std::filesystem::path& path);
 
 class AnimationReader {
@@ -34,11 +35,11 @@ class AnimationReader {
 
   /// The strands; their points are those of the latest frame, none before the first.
   const Groom& groom() const { return groom_; }
-  /// Of USD, too, whose precision is float32.
+  /// Of USD and Alembic, too, whose precision is float32.
   const CacheHeader& header() const { return header_; }
   int frameCount() const { return frameCount_; }
   bool isCache() const { return std::holds_alternative<CacheReader>(reader_); }
-  /// For people "USD text", "USD crate" or "cache"; for programs "usd", "usdc" or "cache".
+  /// For people "USD text", "USD crate", "Alembic" or "cache"; for programs "usd", "usdc", "abc" or "cache".
   const char* formatName() const;
   const char* formatKey() const;
   bool isFinished() const { return isFinished_; }
@@ -49,12 +50,13 @@ class AnimationReader {
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
-  using Reader = std::variant<UsdReader, UsdcReader, CacheReader>;
+  using Reader = std::variant<UsdReader, UsdcReader, AbcReader, CacheReader>;
   explicit AnimationReader(Reader reader) : reader_(std::move(reader)) {}
   void take(const UsdReader& usd);
   void take(const UsdcReader& usd);
+  void take(const AbcReader& abc);
   void take(const CacheReader& cache);
-  void takeHeader(const auto& usd);
+  void takeHeader(const auto& reader);
   Status checkEnd(UsdReader& usd);
 
   Reader reader_;

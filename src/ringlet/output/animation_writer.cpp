@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "ringlet/output/alembic/abc_writer.h"
 #include "ringlet/output/cache_writer.h"
 #include "ringlet/output/pc2_writer.h"
 #include "ringlet/output/usd/usd_clips_writer.h"
@@ -45,14 +46,20 @@ Result<Writer> resumeUsdc(const std::filesystem::path& path, const Groom& topolo
   return owned(UsdcWriter::resume(path, topology, o, frameCount));
 }
 
+Result<Writer> resumeAbc(const std::filesystem::path& path, const Groom& topology, const AnimationOptions& o,
+                         int frameCount) {
+  return owned(AbcWriter::resume(path, topology, o, frameCount));
+}
+
 Result<Writer> resumePc2(const std::filesystem::path& path, const Groom& topology, const AnimationOptions& o,
                          int frameCount) {
   return owned(Pc2Writer::resume(path, topology, o, frameCount));
 }
 
 constexpr AnimationFormat kFormats[] = {
-    {.extension = ".usda", .isRead = true, .isUsd = true, .resume = resumeUsd},
-    {.extension = ".usdc", .isRead = true, .isUsd = true, .resume = resumeUsdc},
+    {.extension = ".usda", .isRead = true, .hasValues = true, .resume = resumeUsd},
+    {.extension = ".usdc", .isRead = true, .hasValues = true, .resume = resumeUsdc},
+    {.extension = ".abc", .isRead = true, .hasValues = true, .resume = resumeAbc},
     {.extension = ".rgc", .hasPrecisions = true, .isRead = true, .resume = resumeCache},
     {.extension = ".pc2", .note = "with an .obj beside it", .resume = resumePc2}};
 

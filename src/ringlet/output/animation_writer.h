@@ -49,13 +49,13 @@ enum class UsdHead {
   none,       // nowhere: points are seen from the head, and something else carries the prim
 };
 
-/// What a USD file may say beside points, widths and extents.
+/// What a USD or Alembic file may say beside points, widths and extents.
 struct UsdExtras {
   std::optional<float> tipDiameter{};    // strands are evenly thinner from root to tip [file unit]
   std::vector<float> widthFactors{};     // of each strand, on both diameters; empty: all 1
   bool ids = false;                      // int[] primvars:id, a number a strand, from 0
   bool rest = false;                     // point3f[] primvars:rest, the topology's own points
-  bool velocities = false;               // vector3f[] [file unit/s], in crates only: see usdc_writer.h
+  bool velocities = false;               // vector3f[] [file unit/s], not in text: see usdc_writer.h
   bool unreal = false;                   // what Unreal's importer of grooms reads (usd_unreal.h)
   std::vector<std::uint32_t> groupOf{};  // each strand's, for Unreal: a number of groupNames; empty: none
   std::vector<std::string> groupNames{};
@@ -75,7 +75,7 @@ struct AnimationOptions {
   float diameter = 0.05f;                              // of every strand [file unit]
   int frameCount = 1;                                  // most frames that will come; fewer may
   CachePrecision precision = CachePrecision::float32;  // of formats that have several
-  UsdExtras usd{};                                     // of USD files
+  UsdExtras usd{};                                     // of USD and Alembic files
 };
 
 /// A row of the table of formats, of which options, keys of scene files, help and messages are made.
@@ -84,7 +84,7 @@ struct AnimationFormat {
   const char* note = "";       // for help, in brackets behind the extension
   bool hasPrecisions = false;  // AnimationOptions::precision
   bool isRead = false;         // by AnimationReader; of others points go out only
-  bool isUsd = false;          // looks at AnimationOptions::usd
+  bool hasValues = false;      // looks at AnimationOptions::usd
   /// Goes on with PATH.partial after its first `frameCount` frames, to the bytes of a file written in one go;
   /// with 0 it begins anew. Only the topology's strand lengths are used. Errors: the file is not that of such
   /// an animation, or has fewer whole frames.

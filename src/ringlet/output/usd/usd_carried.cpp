@@ -18,12 +18,6 @@ bool isIndexed(const GroomPrim& prim, const std::string& name) {
   return name.ends_with(":indices") || find(prim, name + ":indices") != nullptr;
 }
 
-// What holds where none is stated.
-std::string_view interpolationOf(const GroomValue& value) {
-  if (!value.interpolation.empty()) return value.interpolation;
-  return value.name == "widths" ? "vertex" : value.name == "ids" ? "uniform" : "constant";
-}
-
 // That of one prim after that of another.
 void append(UsdStageAttribute& all, const UsdStageAttribute& own) {
   all.numbers.insert(all.numbers.end(), own.numbers.begin(), own.numbers.end());
@@ -44,7 +38,7 @@ std::optional<UsdStageAttribute> joined(const std::vector<GroomPrim>& prims, con
     const GroomValue* value = find(prim, first.name);
     if (!value || value->type != first.type || isIndexed(prim, first.name)) return std::nullopt;
     UsdStageAttribute own = carriedOf(*value, prim.toGroom.scale());
-    std::string_view per = interpolationOf(*value);
+    std::string_view per = interpolationOf(value->name, value->interpolation);
     if (per == "constant") {
       const bool isOne = !usdTypeOf(own.type)->isArray ||
                          std::max(own.numbers.size() / usdTypeOf(own.type)->width(), own.texts.size()) == 1;
@@ -67,6 +61,11 @@ std::optional<UsdStageAttribute> joined(const std::vector<GroomPrim>& prims, con
 }
 
 }  // namespace
+
+std::string_view interpolationOf(std::string_view name, std::string_view stated) {
+  if (!stated.empty()) return stated;
+  return name == "widths" ? "vertex" : name == "ids" ? "uniform" : "constant";
+}
 
 UsdStageAttribute carriedOf(const GroomValue& value, double unit) {
   UsdStageAttribute attribute{.name = value.name,

@@ -1,6 +1,7 @@
 // What a groom's USD file says of its curves beside their points, as attributes of one prim of all strands.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "ringlet/groom/loaded_groom.h"
@@ -10,6 +11,9 @@ namespace ringlet {
 
 /// As an attribute; lengths (widths) times `unit`.
 UsdStageAttribute carriedOf(const GroomValue& value, double unit);
+
+/// What holds where an attribute of curves states no interpolation, "": "vertex", "uniform" or "constant".
+std::string_view interpolationOf(std::string_view name, std::string_view stated);
 
 /// Whether it can be written: a type we know, and numbers or texts of that type.
 bool isWritten(const GroomValue& value);

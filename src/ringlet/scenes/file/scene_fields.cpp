@@ -741,15 +741,15 @@ std::span<const SceneField<SceneOutput>> outputFields() {
       {"tip_width",
        "m",
        "as width",
-       "Diameter at the tip in USD files, metres: strands are evenly thinner from the root on.",
+       "Diameter at the tip in USD and Alembic files, metres: strands are evenly thinner from the root on.",
        &O::tipWidth,
        {1e-9, 1}},
       {"files", "", "hair.usda, last.obj, sheet.png", "Files to write.", &O::files, {}, outputFiles()},
       {"values",
        "",
        "none",
-       "What USD files have beside points and widths: a number of each strand, its rest positions, "
-       "velocities (hair.usdc and clips only), what a USD or Alembic groom says of its curves (widths, ids, "
+       "What USD and Alembic files have beside points and widths: a number of each strand, its rest positions, "
+       "velocities (hair.usdc, hair.abc and clips only), what a USD or Alembic groom says of its curves (widths, ids, "
        "colours and other primvars), what Unreal reads of a groom (docs/unreal.md).",
        &O::values,
        {},
@@ -757,7 +757,7 @@ std::span<const SceneField<SceneOutput>> outputFields() {
       {"head",
        "",
        "",
-       "Where USD files have the head's motion: in the points; in a transform beside points that are seen "
+       "Where USD and Alembic files have the head's motion: in the points; in a transform beside points that are seen "
        "from the head; nowhere, where something else carries these.",
        &O::head,
        {},

@@ -187,7 +187,7 @@ std::vector<SceneKey> sceneKeys() {
   addKeys(keys, "goal", goalFields());
   keys.push_back(
       {"goal", "file", "path", "", "", "none: the groom itself", "",
-       "What hair is pulled to: an animation that Ringlet wrote (.usda, .usdc, .rgc), whose points are in "
+       "What hair is pulled to: an animation that Ringlet wrote (.usda, .usdc, .abc, .rgc), whose points are in "
        "the world, or a groom in another pose, placed as the groom is. Its strands are the groom's."});
   addKeys(keys, "body", bodyFields());
   keys.push_back(

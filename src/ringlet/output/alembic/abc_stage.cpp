@@ -1,0 +1,182 @@
+// Implements output/alembic/abc_stage.h.
+#include "ringlet/output/alembic/abc_stage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "ringlet/base/assert.h"
+#include "ringlet/output/usd/usd_carried.h"
+#include "ringlet/output/usd/usd_hair_stage.h"
+
+namespace ringlet {
+namespace {
+
+constexpr std::string_view kAbcPrimvar = "primvars:", kAbcIndices = ":indices";
+constexpr char kMatrixOp = 3 << 4;  // a matrix, which nothing says more of
+
+AbcType abcTypeOf(usdc::Kind kind) {
+  switch (kind) {
+    case usdc::Kind::boolean:
+      return AbcType::boolean;
+    case usdc::Kind::u8:
+      return AbcType::u8;
+    case usdc::Kind::i32:
+      return AbcType::i32;
+    case usdc::Kind::u32:
+      return AbcType::u32;
+    case usdc::Kind::i64:
+      return AbcType::i64;
+    case usdc::Kind::u64:
+      return AbcType::u64;
+    case usdc::Kind::half:
+      return AbcType::f16;
+    case usdc::Kind::f32:
+      return AbcType::f32;
+    case usdc::Kind::f64:
+      return AbcType::f64;
+    default:
+      return AbcType::text;
+  }
+}
+
+// As a type's metadata has it.
+const char* podNameOf(AbcType type) {
+  constexpr std::array<const char*, 13> kNames{"bool_t",    "uint8_t",   "int8_t",   "uint16_t", "int16_t",
+                                               "uint32_t",  "int32_t",   "uint64_t", "int64_t",  "float16_t",
+                                               "float32_t", "float64_t", "string"};
+  return kNames[static_cast<std::size_t>(type)];
+}
+
+// "rgb" of color3f, by USD's name of the type.
+std::string_view abcMeaningOf(std::string_view usdType, unsigned width) {
+  if (usdType.starts_with("color")) return width == 3 ? "rgb" : "rgba";
+  if (usdType.starts_with("texCoord")) return "vector";
+  for (const std::string_view role : {"vector", "normal", "point", "matrix"})
+    if (usdType.starts_with(role)) return role;
+  return "";
+}
+
+std::string_view abcScopeOf(const UsdStageAttribute& attribute) {
+  const std::string_view per = interpolationOf(attribute.name, attribute.interpolation);
+  if (per == "uniform") return "uni";
+  if (per == "vertex") return "vtx";
+  if (per == "varying") return "var";
+  return per == "faceVarying" ? "fvr" : "con";
+}
+
+std::string abcValuesOf(const UsdStageAttribute& attribute, AbcType type) {
+  std::string bytes;
+  for (const double number : attribute.numbers) putAbcNumber(bytes, type, number);
+  for (std::string text : attribute.texts) {
+    std::erase(text, '\0');
+    bytes += text;
+    bytes.push_back('\0');
+  }
+  return bytes;
+}
+
+// A geometry parameter; `indices`: into its values, or null.
+AbcOutProperty abcParamOf(std::string name, const UsdStageAttribute& attribute,
+                          const UsdStageAttribute* indices) {
+  const auto usdType = usdTypeOf(attribute.type);
+  RINGLET_ASSERT(usdType, "a type that is written");
+  AbcOutProperty param{.name = std::move(name), .kind = AbcKind::array, .type = abcTypeOf(usdType->kind())};
+  if (param.name == "width") param.type = AbcType::f32;  // of floats, whatever the file had
+  param.width = static_cast<unsigned>(usdType->width());
+  param.values = abcValuesOf(attribute, param.type);
+  const std::string_view meaning = abcMeaningOf(attribute.type, param.width);
+  const std::string said = meaning.empty() ? "" : fmt::format("interpretation={};", meaning);
+  param.metadata = fmt::format("arrayExtent=1;geoScope={};{}isGeomParam=true;podExtent={};podName={}",
+                               abcScopeOf(attribute), said, param.width, podNameOf(param.type));
+  if (!indices) return param;
+  AbcOutProperty indexed{.name = param.name, .metadata = param.metadata};
+  AbcOutProperty places{.name = ".indices", .kind = AbcKind::array, .type = AbcType::u32};
+  places.values = abcValuesOf(*indices, places.type);
+  param.name = ".vals";
+  indexed.parts = {std::move(param), std::move(places)};
+  return indexed;
+}
+
+// What the schema has of its own, or a property of `.arbGeomParams`.
+std::string abcNameOf(const UsdStageAttribute& attribute) {
+  std::string_view name = attribute.name;
+  if (name.starts_with(kAbcPrimvar)) name.remove_prefix(kAbcPrimvar.size());
+  const bool isOfPairs = attribute.type.starts_with("texCoord2f") || attribute.type.starts_with("float2");
+  if (name == "st" && isOfPairs && abcScopeOf(attribute) == "uni") return "uv";
+  return std::string(attribute.name == "widths" ? "width" : name);
+}
+
+// All that does not move, of one prim's attributes.
+void addAbcParams(const std::vector<UsdStageAttribute>& attributes, std::vector<AbcOutProperty>& geometry) {
+  constexpr std::string_view kShape[] = {"curveVertexCounts", "type", "wrap", "xformOpOrder"};
+  AbcOutProperty others{.name = ".arbGeomParams"};
+  for (const UsdStageAttribute& attribute : attributes) {
+    const bool isShape = std::ranges::find(kShape, attribute.name) != std::end(kShape);
+    if (isShape || attribute.elementsOfSample > 0 || attribute.name.ends_with(kAbcIndices)) continue;
+    const auto indices =
+        std::ranges::find(attributes, attribute.name + std::string(kAbcIndices), &UsdStageAttribute::name);
+    AbcOutProperty param =
+        abcParamOf(abcNameOf(attribute), attribute, indices == attributes.end() ? nullptr : &*indices);
+    const bool isOwn = param.name == "width" || param.name == "uv";
+    (isOwn ? geometry : others.parts).push_back(std::move(param));
+  }
+  if (!others.parts.empty()) geometry.push_back(std::move(others));
+}
+
+// A matrix a frame.
+void addAbcTransform(std::vector<AbcOutProperty>& transform) {
+  std::string channels;
+  for (unsigned k = 0; k < kAbcMatrixNumbers; ++k) putAbcU32(channels, k);
+  const std::string yes(1, '\1');
+  transform = {
+      {.name = ".inherits", .kind = AbcKind::scalar, .values = yes, .isCounted = true},
+      {.name = ".ops", .kind = AbcKind::scalar, .type = AbcType::u8, .values = std::string(1, kMatrixOp)},
+      {.name = ".vals",
+       .kind = AbcKind::scalar,
+       .type = AbcType::f64,
+       .width = kAbcMatrixNumbers,
+       .sampleBytes = 8 * std::size_t{kAbcMatrixNumbers},
+       .isCounted = true},
+      {.name = "isNotConstantIdentity", .kind = AbcKind::scalar, .values = yes},
+      {.name = ".animChans", .kind = AbcKind::array, .type = AbcType::u32, .values = std::move(channels)}};
+}
+
+}  // namespace
+
+AbcStage abcStageOf(const Groom& topology, const AnimationOptions& options) {
+  AnimationOptions own = options;
+  own.usd.originPrims = false;
+  const HairStage hair = hairStageOf(topology, own);
+  AbcStage stage{.archive = abcHairOf(topology), .margin = hair.curves.front().margin};
+  AbcOutArchive& archive = stage.archive;
+  archive.metadata += fmt::format(";{}={};{}={};{}={}", kAbcRate, options.framesPerSecond, kAbcUnit,
+                                  options.metresPerUnit, kAbcUp, options.up == UpAxis::y ? "Y" : "Z");
+  archive.samplings.push_back(
+      {1 / options.framesPerSecond, options.usd.firstTimeCode / options.framesPerSecond, 0});
+
+  if (options.usd.head == UsdHead::transform) addAbcTransform(abcTransformOf(archive));
+  std::vector<AbcOutProperty>& geometry = abcGeometryOf(archive);
+  const std::size_t pointBytes = sizeof(Vec3f) * topology.firstPoint.back();
+  for (AbcOutProperty& property : geometry) {
+    if (property.name == ".selfBnds") property.sampleBytes = 2 * 3 * sizeof(double);
+    if (property.name == kAbcPoints) property.sampleBytes = pointBytes;
+    property.isCounted |= property.isMoving();
+  }
+  if (options.usd.velocities)
+    geometry.push_back({.name = kAbcVelocities,
+                        .metadata = "interpretation=vector",
+                        .kind = AbcKind::array,
+                        .type = AbcType::f32,
+                        .width = 3,
+                        .sampleBytes = pointBytes,
+                        .isCounted = true,
+                        .comesLater = true});
+  addAbcParams(hair.stage.prims.front().attributes, geometry);
+  return stage;
+}
+
+}  // namespace ringlet
