@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ringlet/groom/groom_file.h"
 #include "ringlet/groom/usd/usd_file.h"
 #include "ringlet/output/animation_writer.h"
 #include "tests/support/test_support.h"
@@ -54,14 +55,8 @@ fs::path write(const std::string& ending, const Groom& groom, UsdExtras extras) 
   return path;
 }
 
-std::vector<std::byte> bytesOf(const fs::path& path) {
-  const std::string text = test::readText(path);
-  const auto bytes = std::as_bytes(std::span(text));
-  return {bytes.begin(), bytes.end()};
-}
-
 GroomPrim written(const std::string& ending, const Groom& groom, const UsdExtras& extras) {
-  auto read = readUsd(bytesOf(write(ending, groom, extras)), "hair" + ending, {.keepsPrims = true});
+  auto read = readGroom(write(ending, groom, extras), {.keepsPrims = true});
   EXPECT_TRUE(read) << read.error().message;
   if (!read || read->prims.size() != 1) {
     ADD_FAILURE() << "not one prim";
@@ -183,6 +178,28 @@ TEST(UsdUnreal, UvsAndColoursOfEveryScope) {
       EXPECT_EQ(value->numbers, c.numbers) << ending;
     }
   }
+}
+
+// Alembic has the same parameters, by the same names without USD's.
+TEST(UsdUnreal, AlembicHasThemToo) {
+  const LoadedGroom groom = groomSaying(R"(
+    int[] primvars:id = [42, 7] (interpolation = "uniform")
+    texCoord2f[] primvars:st = [(0, 1), (0.5, 0.75)] (interpolation = "uniform")
+    color3f[] primvars:displayColor = [(1, 2, 3)]
+    int[] primvars:groom_guide = [1, 0] (interpolation = "uniform"))");
+  const GroomPrim prim =
+      written(".abc", groom.groom, {.groupOf = {1, 0}, .groupNames = {"fringe", "others"}, .origin = &groom});
+  expectRows(prim,
+             {{"widths", "float[]", "uniform", {0.04f, 0.04f}},
+              {"primvars:groom_id", "int[]", "uniform", {42, 7}},
+              {"primvars:groom_root_uv", "float2[]", "uniform", {0, 1, 0.5, 0.75}},
+              {"primvars:groom_color", "float3[]", "vertex", {1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3}},
+              {"primvars:groom_guide", "int[]", "uniform", {1, 0}},
+              {"primvars:groom_group_id", "int[]", "uniform", {1, 0}},
+              {"primvars:groom_group_name", "string[]", "uniform", {}, {"others", "fringe"}},
+              {"primvars:groom_version_major", "int[]", "constant", {1}},
+              {"primvars:groom_version_minor", "int[]", "constant", {5}},
+              {"primvars:groom_tool", "string[]", "constant", {}, {"Ringlet"}}});
 }
 
 // The prim is a groom's; the schema's version is said of the whole.

@@ -15,7 +15,8 @@
 namespace ringlet {
 namespace {
 
-constexpr std::string_view kAbcPrimvar = "primvars:", kAbcIndices = ":indices";
+constexpr std::string_view kAbcPrimvar = "primvars:", kAbcOfGroom = "userProperties:",
+                           kAbcIndices = ":indices";
 constexpr char kMatrixOp = 3 << 4;  // a matrix, which nothing says more of
 
 AbcType abcTypeOf(usdc::Kind kind) {
@@ -85,7 +86,8 @@ AbcOutProperty abcParamOf(std::string name, const UsdStageAttribute& attribute,
   const auto usdType = usdTypeOf(attribute.type);
   RINGLET_ASSERT(usdType, "a type that is written");
   AbcOutProperty param{.name = std::move(name), .kind = AbcKind::array, .type = abcTypeOf(usdType->kind())};
-  if (param.name == "width") param.type = AbcType::f32;  // of floats, whatever the file had
+  if (param.name == "width") param.type = AbcType::f32;                    // of floats, whatever the file had
+  if (param.name.starts_with("groom_version")) param.type = AbcType::i16;  // as Unreal's schema has it
   param.width = static_cast<unsigned>(usdType->width());
   param.values = abcValuesOf(attribute, param.type);
   const std::string_view meaning = abcMeaningOf(attribute.type, param.width);
@@ -104,7 +106,8 @@ AbcOutProperty abcParamOf(std::string name, const UsdStageAttribute& attribute,
 // What the schema has of its own, or a property of `.arbGeomParams`.
 std::string abcNameOf(const UsdStageAttribute& attribute) {
   std::string_view name = attribute.name;
-  if (name.starts_with(kAbcPrimvar)) name.remove_prefix(kAbcPrimvar.size());
+  for (const std::string_view prefix : {kAbcPrimvar, kAbcOfGroom})
+    if (name.starts_with(prefix)) name.remove_prefix(prefix.size());
   const bool isOfPairs = attribute.type.starts_with("texCoord2f") || attribute.type.starts_with("float2");
   if (name == "st" && isOfPairs && abcScopeOf(attribute) == "uni") return "uv";
   return std::string(attribute.name == "widths" ? "width" : name);
