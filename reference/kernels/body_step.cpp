@@ -47,8 +47,8 @@ Met<Real> meet(const BodyStep<Real>& step, const Vector3<Real>& p, const Vector3
           step.velocityAt(p, touch.way)};
 }
 
-/// A particle that began the step at y0, outside or no deeper than kHeldDepth, and has moved to y1: out of the
-/// body, the way it came, or up to the depth where it was.
+/// A particle that began the step at y0, outside or no deeper than kHeldDepth, and has moved to y1: out of
+/// the body, the way it came, or up to the depth where it was.
 template <class Real>
 struct KeptOut {
   bool moved = false;
