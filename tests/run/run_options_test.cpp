@@ -8,16 +8,21 @@
 namespace ringlet::run_options_test {
 namespace {
 
-// Those of a .hair file have no path, and other files have none.
+// Those of a .hair file and of Alembic are none of USD's, and other files have none.
 TEST(RunOptions, OnlyPrimsOfUsdCanBeChanged) {
-  for (const char* path : {"/Head/Hair", "", "no prim"}) {
+  struct Case {
+    const char* path;  // of its prim; null: it has none
+    bool isUsd;
+  };
+  for (const Case& c : {Case{"/Head/Hair", true}, {"/Head/Hair", false}, {"", false}, {nullptr, true}}) {
     LoadedGroom groom{.groom = *makeCurl({})};
-    if (std::string(path) != "no prim") groom.prims.emplace_back().path = path;
+    groom.hasUsdPrims = c.isUsd;
+    if (c.path) groom.prims.emplace_back().path = c.path;
     RunOptions options;
     EXPECT_TRUE(chooseOrigin(groom, options));
     EXPECT_EQ(options.origin, &groom);
     options.usesGroomPrims = true;
-    EXPECT_EQ(bool(chooseOrigin(groom, options)), path[0] == '/') << path;
+    EXPECT_EQ(bool(chooseOrigin(groom, options)), c.path && c.isUsd);
   }
 }
 

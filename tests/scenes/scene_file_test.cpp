@@ -341,7 +341,7 @@ TEST(SceneFile, MistakesAreNamedWithLineAndRemedy) {
       {"[groom]\nfile = 'a.obj'\n[contacts]\non = 1",
        "line 4: found the number 1 for contacts.on; expected true or false"},
       {"[groom]\nfile = 'a.obj'\n[output]\nfiles = ['hair.usd']",
-       "line 4: found a list of 1 for output.files; expected a list of hair.usda, hair.usdc, hair.pc2, "
+       "line 4: found a list of 1 for output.files; expected a list of hair.usda, hair.usdc, hair.abc, hair.pc2, "
        "last.obj, "
        "sheet.png"},
       {"[groom]\nfile = 'a.obj'\n[[body]]\nshape = 'sphere'\nmoves = 'heda'",
