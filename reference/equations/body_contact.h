@@ -24,8 +24,6 @@ inline constexpr double kLeaveSpeed = 0.2;  // [m/s]: what begins inside leaves 
 // What is deeper inside [m] leaves across its strand, which else would be stretched or crushed, held by this
 // share of the weight.
 inline constexpr double kDeep = 1e-3, kDeepShare = 0.04;
-inline constexpr double kHeldDepth =
-    4e-3;  // [m]: what began deeper may go deeper: the way out may be anywhere
 inline constexpr double kBodyWeight = 200;    // of what holds a particle at its allowed speed, in its masses
 inline constexpr double kFullDeficit = 0.01;  // [m/s]: of a deficit that gives half of that weight: without a
                                               // ramp, rounding would decide whether what just rests is held
