@@ -10,6 +10,7 @@
 #include "ringlet/base/little_endian.h"
 #include "ringlet/base/text_of.h"
 #include "ringlet/output/cache_reader.h"
+#include "ringlet/output/partial_frames.h"
 
 namespace ringlet {
 namespace {
@@ -47,12 +48,10 @@ Result<CacheWriter> CacheWriter::resume(const std::filesystem::path& path, const
   if (!begins) return begins.error();
   if (*begins != textOf(cache::headerBytes(header)) || before->firstPoint() != topology.firstPoint ||
       before->frameCount() < frameCount) {
-    return Error{fmt::format("cannot go on with {}: expected {} whole frames of this animation, found {}",
-                             file->path().string(), frameCount,
-                             before->firstPoint() == topology.firstPoint
-                                 ? fmt::format("{} frames, or another header", before->frameCount())
-                                 : std::string("those of another groom")),
-                 Fault::input};
+    const bool isOfGroom = before->firstPoint() == topology.firstPoint;
+    return cannotGoOn(*file, frameCount,
+                      isOfGroom ? fmt::format("{} frames, or another header", before->frameCount()).c_str()
+                                : "those of another groom");
   }
   CacheWriter writer(std::move(*file), path, topology, header);
   for (int frame = 1; frame <= frameCount; ++frame)
@@ -63,11 +62,7 @@ Result<CacheWriter> CacheWriter::resume(const std::filesystem::path& path, const
   return writer;
 }
 
-CacheWriter::~CacheWriter() {
-  if (!file_.isOpen() || !index_.empty() || !file_.isThere()) return;
-  std::error_code ignored;
-  std::filesystem::remove(file_.path(), ignored);
-}
+CacheWriter::~CacheWriter() { removeWithoutFrames(file_, index_.size()); }
 
 Status CacheWriter::append(std::span<const std::byte> bytes) {
   Status written = file_.writeAt(end_, textOf(bytes));
@@ -77,10 +72,7 @@ Status CacheWriter::append(std::span<const std::byte> bytes) {
   }
   // What there was before is whole, also where this fails: a reader drops the torn end.
   const Status ignored = file_.truncate(end_);
-  if (index_.empty() || !file_.isThere()) return written;
-  return Error{fmt::format("{} (the first {} frames are kept in {})", written.error().message, index_.size(),
-                           file_.path().string()),
-               written.error().fault};
+  return framesKept(written.error(), index_.size(), file_);
 }
 
 Status CacheWriter::addFrame(std::span<const Vec3f> points, const UsdTransform&) {

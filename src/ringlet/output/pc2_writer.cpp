@@ -14,6 +14,7 @@
 #include "ringlet/base/pc2_format.h"
 #include "ringlet/base/text_of.h"
 #include "ringlet/groom/obj_file.h"
+#include "ringlet/output/partial_frames.h"
 
 namespace ringlet {
 namespace {
@@ -51,24 +52,14 @@ Result<Pc2Writer> Pc2Writer::resume(const std::filesystem::path& path, const Gro
   if (!last) return last.error();
   const bool isOurs = header->size() == kPc2HeaderBytes &&
                       header->substr(0, kPc2CountAt) == textOf(expected).substr(0, kPc2CountAt);
-  if (!isOurs || last->empty()) {
-    return Error{
-        fmt::format(
-            "cannot go on with {}: expected {} whole frames of this animation, found another file or fewer",
-            writer.file_.path().string(), frameCount),
-        Fault::input};
-  }
+  if (!isOurs || last->empty()) return cannotGoOn(writer.file_, frameCount);
   if (Status renamed = writer.file_.rename(path.string() + ".partial"); !renamed) return renamed.error();
   if (Status counted = writer.writeCount(); !counted) return counted.error();
   if (Status cut = writer.file_.truncate(writer.endOf(frameCount)); !cut) return cut.error();
   return writer;
 }
 
-Pc2Writer::~Pc2Writer() {
-  if (!file_.isOpen() || frameCount_ > 0 || !file_.isThere()) return;
-  std::error_code ignored;
-  std::filesystem::remove(file_.path(), ignored);
-}
+Pc2Writer::~Pc2Writer() { removeWithoutFrames(file_, static_cast<std::size_t>(frameCount_)); }
 
 std::uint64_t Pc2Writer::endOf(int frame) const {
   return kPc2HeaderBytes + static_cast<std::uint64_t>(frame) * kPc2PointBytes * topology_.firstPoint.back();
@@ -90,10 +81,7 @@ Status Pc2Writer::addFrame(std::span<const Vec3f> points, const UsdTransform&) {
   }
   if (!written) {
     (void)file_.truncate(endOf(frameCount_));
-    if (frameCount_ == 0 || !file_.isThere()) return written;
-    return Error{fmt::format("{} (the first {} frames are kept in {})", written.error().message, frameCount_,
-                             file_.path().string()),
-                 written.error().fault};
+    return framesKept(written.error(), static_cast<std::size_t>(frameCount_), file_);
   }
   ++frameCount_;
   return writeCount();

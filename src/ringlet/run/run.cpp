@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "ringlet/base/stopwatch.h"
+#include "ringlet/output/partial_frames.h"
 #include "ringlet/output/positions_hash.h"
 #include "ringlet/run/frame_sink.h"
 #include "ringlet/run/run_checkpoints.h"
@@ -36,10 +37,9 @@ double secondsBetween(Clock::time_point from, Clock::time_point to) {
 // A failure in the middle of a run, with a note on which frames are kept.
 Error afterFrames(int frameCount, const Error& cause, const RunOptions& options) {
   const std::vector<std::string> animations = animationsOf(options);
-  if (frameCount == 0 || options.folder.empty() || animations.empty()) return cause;
-  return Error{fmt::format("{} (the first {} frames are kept in {})", cause.message, frameCount,
-                           (options.folder / (animations.front() + ".partial")).string()),
-               cause.fault};
+  if (options.folder.empty() || animations.empty()) return cause;
+  return framesKept(cause, static_cast<std::size_t>(frameCount),
+                    options.folder / (animations.front() + ".partial"));
 }
 
 // Facts that must be equal in this run and in one that resumes it, except those of the device.

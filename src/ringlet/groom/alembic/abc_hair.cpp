@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
-#include <limits>
 
 #include "ringlet/base/assert.h"
+#include "ringlet/base/bounds.h"
 #include "ringlet/base/whole_file.h"
 #include "ringlet/groom/groom_check.h"
 
@@ -93,14 +93,9 @@ std::string abcBoxBytes(const std::array<Vec3f, 2>& corners) {
 
 Status writeAbc(const std::filesystem::path& path, const Groom& groom) {
   if (Status status = checkGroom(groom, groom.points, path); !status) return status;
-  const float infinity = std::numeric_limits<float>::infinity();
-  std::array<Vec3f, 2> box{Vec3f{infinity, infinity, infinity}, Vec3f{-infinity, -infinity, -infinity}};
-  for (const Vec3f p : groom.points) {
-    box[0] = {std::min(box[0].x, p.x), std::min(box[0].y, p.y), std::min(box[0].z, p.z)};
-    box[1] = {std::max(box[1].x, p.x), std::max(box[1].y, p.y), std::max(box[1].z, p.z)};
-  }
+  const Bounds box = boundsOf(groom.points);
   AbcOutArchive archive = abcHairOf(groom);
-  abcGeometryOf(archive)[0].values = abcBoxBytes(box);
+  abcGeometryOf(archive)[0].values = abcBoxBytes({Vec3f(box.low), Vec3f(box.high)});
   std::string& points = abcGeometryOf(archive)[1].values;
   points.resize(sizeof(Vec3f) * groom.points.size());
   putAbcPoints(groom.points, points, 0);

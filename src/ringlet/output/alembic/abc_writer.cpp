@@ -4,11 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "ringlet/base/assert.h"
+#include "ringlet/base/bounds.h"
 #include "ringlet/base/little_endian.h"
+#include "ringlet/output/partial_frames.h"
 
 namespace ringlet {
 namespace {
@@ -46,7 +47,8 @@ AbcWriter::AbcWriter(ByteFile file, const std::filesystem::path& path, const Gro
       path_(path),
       pointCount_(topology.firstPoint.back()),
       options_(options),
-      stage_(abcStageOf(topology, options)) {
+      stage_(abcStageOf(topology, options)),
+      points_(options) {
   options_.usd.origin = nullptr;  // it may end before the writer
   findMoving(abcTransformOf(stage_.archive));
   findMoving(abcGeometryOf(stage_.archive));
@@ -111,30 +113,22 @@ Result<AbcWriter> AbcWriter::resume(const std::filesystem::path& path, const Gro
   writer.frameCount_ = frameCount;  // what is refused stays as it is
   const auto isOurs = writer.isOurs(frameCount);
   if (!isOurs) return isOurs.error();
-  if (!*isOurs) {
-    return Error{
-        fmt::format(
-            "cannot go on with {}: expected {} whole frames of this animation, found another file or fewer",
-            writer.file_.path().string(), frameCount),
-        Fault::input};
-  }
+  if (!*isOurs) return cannotGoOn(writer.file_, frameCount);
   if (Status read = writer.readContents(frameCount); !read) return read.error();
   if (options.usd.velocities) {
-    if (Status read = writer.readBack(frameCount, writer.last_); !read) return read.error();
+    std::vector<Vec3f> last, beforeLast;
+    if (Status read = writer.readBack(frameCount, last); !read) return read.error();
     if (frameCount > 1) {
-      if (Status read = writer.readBack(frameCount - 1, writer.beforeLast_); !read) return read.error();
+      if (Status read = writer.readBack(frameCount - 1, beforeLast); !read) return read.error();
     }
+    writer.points_.resume(std::move(beforeLast), std::move(last));
   }
   if (Status renamed = writer.file_.rename(path.string() + ".partial"); !renamed) return renamed.error();
   if (Status cut = writer.cutAfter(frameCount); !cut) return cut.error();
   return writer;
 }
 
-AbcWriter::~AbcWriter() {
-  if (!file_.isOpen() || frameCount_ > 0 || !file_.isThere()) return;
-  std::error_code ignored;
-  std::filesystem::remove(file_.path(), ignored);
-}
+AbcWriter::~AbcWriter() { removeWithoutFrames(file_, static_cast<std::size_t>(frameCount_)); }
 
 std::uint64_t AbcWriter::placeOf(int frame, const Moving& moving) const {
   return front_.size() + static_cast<std::uint64_t>(frame - 1) * frameBytes_ + moving.slot;
@@ -169,33 +163,22 @@ Status AbcWriter::addFrame(std::span<const Vec3f> points, const UsdTransform& he
   RINGLET_ASSERT(points.size() == pointCount_, "one point per particle of the groom");
   RINGLET_ASSERT(frameCount_ < options_.frameCount, "more frames than announced");
   if (Status written = writeFrame(points, head); !written) return keepFinishedFrames(written.error());
-  if (options_.usd.velocities) {
-    std::swap(beforeLast_, last_);
-    std::swap(last_, points_);
-  }
+  points_.keep();
   return {};
 }
 
 Status AbcWriter::writeFrame(std::span<const Vec3f> points, const UsdTransform& head) {
   const int frame = frameCount_ + 1;
-  points_.assign(points.begin(), points.end());
-  if (options_.usd.head != UsdHead::baked) {
-    const UsdTransform fromWorld = head.inverse();
-    for (Vec3f& point : points_) point = Vec3f(fromWorld(Vec3d(point)));
-  }
-  const float infinity = std::numeric_limits<float>::infinity();
-  Vec3f low{infinity, infinity, infinity}, high = -low;
-  for (const Vec3f p : points_) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
+  points_.take(points, head);
+  const Bounds bounds = boundsOf(points_.now());
+  const Vec3f low(bounds.low), high(bounds.high);
   const Vec3f margin{stage_.margin, stage_.margin, stage_.margin};
   buffer_.resize(frameBytes_, '\0');
   for (const Moving& moving : moving_) {
     const std::string& name = moving.property->name;
     if (moving.property->comesLater) continue;
     if (name == kAbcPoints) {
-      putPoints(moving, points_);
+      putPoints(moving, points_.now());
     } else {
       putSample(moving,
                 name == ".vals" ? abcMatrixBytesOf(head) : abcBoxBytes({low - margin, high + margin}));
@@ -204,10 +187,7 @@ Status AbcWriter::writeFrame(std::span<const Vec3f> points, const UsdTransform& 
   const std::string_view early = std::string_view(buffer_).substr(0, earlyBytes_);
   if (Status written = file_.writeAt(placeOf(frame, {}), early); !written) return written;
   if (options_.usd.velocities && frame > 1) {
-    const bool isFirst = frame == 2;
-    if (Status written = writeVelocities(frame - 1, isFirst ? last_ : beforeLast_, points_, isFirst ? 1 : 2);
-        !written)
-      return written;
+    if (Status written = writeVelocities(frame - 1, points_.velocitiesOfLast()); !written) return written;
   }
   if (Status led = leadTo(frame, false); !led) return led;
   if (frame > 1) {
@@ -244,14 +224,9 @@ void AbcWriter::signSample(const Moving& moving) {
                   abcDigest(std::string_view(buffer_).substr(moving.slot + kAbcSampleHead, size)));
 }
 
-Status AbcWriter::writeVelocities(int frame, std::span<const Vec3f> before, std::span<const Vec3f> after,
-                                  double frames) {
-  velocities_.resize(after.size());
-  const double rate = options_.framesPerSecond / frames;
-  for (std::size_t i = 0; i < velocities_.size(); ++i)
-    velocities_[i] = Vec3f((Vec3d(after[i]) - Vec3d(before[i])) * rate);
+Status AbcWriter::writeVelocities(int frame, std::span<const Vec3f> velocities) {
   buffer_.resize(frameBytes_, '\0');
-  putPoints(moving_.back(), velocities_);
+  putPoints(moving_.back(), velocities);
   return file_.writeAt(endOf(frame), std::string_view(buffer_).substr(earlyBytes_));
 }
 
@@ -371,17 +346,13 @@ Error AbcWriter::keepFinishedFrames(const Error& cause) {
   // Where it cannot be done it does not matter: nothing counts what follows.
   (void)cutAfter(frameCount_);
   (void)file_.truncate(endOf(frameCount_));
-  if (frameCount_ == 0 || !file_.isThere()) return cause;
-  return {fmt::format("{} (the first {} frames are kept in {})", cause.message, frameCount_,
-                      file_.path().string()),
-          cause.fault};
+  return framesKept(cause, static_cast<std::size_t>(frameCount_), file_);
 }
 
 Status AbcWriter::finish() {
   RINGLET_ASSERT(frameCount_ > 0, "a file without frames is not finished but dropped");
   if (options_.usd.velocities) {
-    const auto& before = frameCount_ > 1 ? beforeLast_ : last_;
-    if (Status written = writeVelocities(frameCount_, before, last_, 1); !written) return written;
+    if (Status written = writeVelocities(frameCount_, points_.velocitiesAtEnd()); !written) return written;
     if (Status led = leadTo(frameCount_, true); !led) return led;
     if (Status switched = switchTo(1 - room_, frameCount_, frameCount_); !switched) return switched;
   }

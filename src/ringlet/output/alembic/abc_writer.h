@@ -33,6 +33,7 @@
 #include "ringlet/output/alembic/abc_stage.h"
 #include "ringlet/output/animation_writer.h"
 #include "ringlet/output/byte_file.h"
+#include "ringlet/output/moving_points.h"
 
 namespace ringlet {
 
@@ -43,8 +44,7 @@ inline constexpr std::uint64_t kAbcMarkAt = 16 + 8, kAbcFrontSizeAt = kAbcMarkAt
 /// While frames come, the file is `PATH.partial`, and it is a whole archive at every moment: a killed program
 /// leaves all finished frames in it. finish() renames it to PATH. A frame that fails (full disk) leaves the
 /// frames before it. Memory: what is in front, which has 8 or 16 bytes a frame that may come of each property
-/// that moves; 16 bytes a frame; and one frame. With velocities, which are those of usdc_writer.h and as
-/// late, two more.
+/// that moves; 16 bytes a frame; and MovingPoints, by which velocities are as late as they are.
 class AbcWriter : public AnimationWriter {
  public:
   /// Creates the file and writes everything but the frames.
@@ -90,8 +90,7 @@ class AbcWriter : public AnimationWriter {
   void putSample(const Moving& moving, std::string_view values);
   void putPoints(const Moving& moving, std::span<const Vec3f> points);
   void signSample(const Moving& moving);
-  Status writeVelocities(int frame, std::span<const Vec3f> before, std::span<const Vec3f> after,
-                         double frames);
+  Status writeVelocities(int frame, std::span<const Vec3f> velocities);
   Status leadTo(int frame, bool later);
   Status switchTo(int room, int frames, int laterFrames);
   Status writeCounts(int frames);
@@ -111,12 +110,10 @@ class AbcWriter : public AnimationWriter {
   std::string front_;           // all in front of the frames, as it is before the first
   std::array<std::uint64_t, 2> rooms_{};
   std::uint64_t roomBytes_ = 0, earlyBytes_ = 0, frameBytes_ = 0;
-  int room_ = 0;               // that the header leads to
-  std::string contents_;       // digests of all that does not move, and with frame 1, 2, ...
-  std::string buffer_;         // a frame on its way to the file, and what comes later of the one before
-  std::vector<Vec3f> points_;  // of it, as they are written
-  std::vector<Vec3f> velocities_;
-  std::vector<Vec3f> last_, beforeLast_;  // with velocities: of the frames before
+  int room_ = 0;          // that the header leads to
+  std::string contents_;  // digests of all that does not move, and with frame 1, 2, ...
+  std::string buffer_;    // a frame on its way to the file, and what comes later of the one before
+  MovingPoints points_;
   int frameCount_ = 0;
 };
 

@@ -22,8 +22,10 @@
 #include <algorithm>
 #include <charconv>
 #include <iterator>
-#include <limits>
 
+#include "ringlet/base/bounds.h"
+#include "ringlet/output/moving_points.h"
+#include "ringlet/output/partial_frames.h"
 #include "ringlet/output/usd/usd_hair_stage.h"
 #include "ringlet/output/usd/usd_text.h"
 
@@ -176,13 +178,7 @@ Result<UsdWriter> UsdWriter::resume(const std::filesystem::path& path, const Gro
     begin = end;
     end = *next;
   }
-  if (!isWhole) {
-    return Error{
-        fmt::format(
-            "cannot go on with {}: expected {} whole frames of this animation, found another file or fewer",
-            writer.file_.path().string(), frameCount),
-        Fault::input};
-  }
+  if (!isWhole) return cannotGoOn(writer.file_, frameCount);
   if (Status renamed = writer.file_.rename(path.string() + ".partial"); !renamed) return renamed.error();
   if (Status cut = writer.cutAfter(begin, end); !cut) return cut.error();
   return writer;
@@ -212,11 +208,7 @@ Status UsdWriter::cutAfter(std::uint64_t lineBegin, std::uint64_t lineEnd) {
   return writeEndTimeCode();
 }
 
-UsdWriter::~UsdWriter() {
-  if (!file_.isOpen() || frameCount_ > 0 || !file_.isThere()) return;
-  std::error_code ignored;
-  std::filesystem::remove(file_.path(), ignored);
-}
+UsdWriter::~UsdWriter() { removeWithoutFrames(file_, static_cast<std::size_t>(frameCount_)); }
 
 Status UsdWriter::addFrame(std::span<const Vec3f> points, const UsdTransform& head) {
   RINGLET_ASSERT(points.size() == firstPoint_.back(), "one point per particle of the groom");
@@ -228,14 +220,13 @@ Status UsdWriter::addFrame(std::span<const Vec3f> points, const UsdTransform& he
 Status UsdWriter::writeFrame(std::span<const Vec3f> points, const UsdTransform& head) {
   if (options_.usd.head != UsdHead::baked) {
     fromHead_.assign(points.begin(), points.end());
-    const UsdTransform fromWorld = head.inverse();
-    for (Vec3f& point : fromHead_) point = Vec3f(fromWorld(Vec3d(point)));
+    seeFromHead(head, fromHead_);
     points = fromHead_;
   }
-  const float infinity = std::numeric_limits<float>::infinity();
-  Vec3f low{infinity, infinity, infinity}, high = -low;
+  const Bounds bounds = boundsOf(points);
+  const Vec3f low(bounds.low), high(bounds.high);
   const std::uint64_t begin = end_;
-  if (Status written = writeLine(points, low, high); !written) return written;
+  if (Status written = writeLine(points); !written) return written;
 
   // Its extent: a strand is as thick as it is wide, so half a diameter more on every side.
   const int frame = frameCount_ + 1;
@@ -258,7 +249,7 @@ Status UsdWriter::writeFrame(std::span<const Vec3f> points, const UsdTransform& 
 }
 
 // Behind the end, as a comment.
-Status UsdWriter::writeLine(std::span<const Vec3f> points, Vec3f& low, Vec3f& high) {
+Status UsdWriter::writeLine(std::span<const Vec3f> points) {
   std::uint64_t offset = end_;
   buffer_.clear();  // and keeps its memory
   fmt::format_to(std::back_inserter(buffer_), "{}       {}: [", kNext, timeCodeOf(frameCount_ + 1));
@@ -270,8 +261,6 @@ Status UsdWriter::writeLine(std::span<const Vec3f> points, Vec3f& low, Vec3f& hi
     for (Vec3f p : particles) {
       at = putTuple(at, p);
       *at++ = ',';
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
     buffer_.resize(at - buffer_.data());
     if (buffer_.size() >= kFlushBytes) {
@@ -314,10 +303,7 @@ Error UsdWriter::keepFinishedFrames(const Error& cause) {
   // Behind the end there is only a comment; where it cannot be cut off it does not matter.
   (void)file_.truncate(end_);
   (void)clearPlaces(frameCount_ + 1);
-  if (frameCount_ == 0 || !file_.isThere()) return cause;
-  return {fmt::format("{} (the first {} frames are kept in {})", cause.message, frameCount_,
-                      file_.path().string()),
-          cause.fault};
+  return framesKept(cause, static_cast<std::size_t>(frameCount_), file_);
 }
 
 Status UsdWriter::finish() {

@@ -57,7 +57,7 @@ class UsdWriter : public AnimationWriter {
             const AnimationOptions& options);
   std::string headerText(const Groom& topology);
   Status writeFrame(std::span<const Vec3f> points, const UsdTransform& head);
-  Status writeLine(std::span<const Vec3f> points, Vec3f& low, Vec3f& high);
+  Status writeLine(std::span<const Vec3f> points);
   Status writeExtent(int frame, std::string text);
   Status writeHead(int frame, std::string text);
   Status clearPlaces(int frame);

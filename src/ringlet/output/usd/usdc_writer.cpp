@@ -11,12 +11,13 @@
 #include <array>
 #include <bit>
 #include <cstring>
-#include <limits>
 #include <utility>
 
 #include "ringlet/base/assert.h"
+#include "ringlet/base/bounds.h"
 #include "ringlet/base/little_endian.h"
 #include "ringlet/base/text_of.h"
+#include "ringlet/output/partial_frames.h"
 
 namespace ringlet {
 namespace {
@@ -62,7 +63,11 @@ void putMatrix(const UsdTransform& transform, char* at) {
 
 UsdcWriter::UsdcWriter(ByteFile file, const std::filesystem::path& path, const Groom& topology,
                        const AnimationOptions& options)
-    : file_(std::move(file)), path_(path), firstPoint_(topology.firstPoint), options_(options) {
+    : file_(std::move(file)),
+      path_(path),
+      firstPoint_(topology.firstPoint),
+      options_(options),
+      points_(options) {
   RINGLET_ASSERT(options.frameCount >= 1, "at least one frame will come");
   HairStage made = hairStageOf(topology, options);
   curves_ = std::move(made.curves);
@@ -88,29 +93,21 @@ Result<UsdcWriter> UsdcWriter::resume(const std::filesystem::path& path, const G
   writer.frameCount_ = frameCount;  // what is refused stays as it is
   const auto isOurs = writer.isOurs(frameCount);
   if (!isOurs) return isOurs.error();
-  if (!*isOurs) {
-    return Error{
-        fmt::format(
-            "cannot go on with {}: expected {} whole frames of this animation, found another file or fewer",
-            writer.file_.path().string(), frameCount),
-        Fault::input};
-  }
+  if (!*isOurs) return cannotGoOn(writer.file_, frameCount);
   if (options.usd.velocities) {
-    if (Status read = writer.readBack(frameCount, writer.last_); !read) return read.error();
+    std::vector<Vec3f> last, beforeLast;
+    if (Status read = writer.readBack(frameCount, last); !read) return read.error();
     if (frameCount > 1) {
-      if (Status read = writer.readBack(frameCount - 1, writer.beforeLast_); !read) return read.error();
+      if (Status read = writer.readBack(frameCount - 1, beforeLast); !read) return read.error();
     }
+    writer.points_.resume(std::move(beforeLast), std::move(last));
   }
   if (Status renamed = writer.file_.rename(path.string() + ".partial"); !renamed) return renamed.error();
   if (Status cut = writer.cutAfter(frameCount); !cut) return cut.error();
   return writer;
 }
 
-UsdcWriter::~UsdcWriter() {
-  if (!file_.isOpen() || frameCount_ > 0 || !file_.isThere()) return;
-  std::error_code ignored;
-  std::filesystem::remove(file_.path(), ignored);
-}
+UsdcWriter::~UsdcWriter() { removeWithoutFrames(file_, static_cast<std::size_t>(frameCount_)); }
 
 UsdcWriter::Moving UsdcWriter::movingOf(const HairCurves& curves) const {
   Moving moving;
@@ -134,35 +131,25 @@ Status UsdcWriter::addFrame(std::span<const Vec3f> points, const UsdTransform& h
   RINGLET_ASSERT(points.size() == firstPoint_.back(), "one point per particle of the groom");
   RINGLET_ASSERT(frameCount_ < options_.frameCount, "more frames than announced");
   if (Status written = writeFrame(points, head); !written) return keepFinishedFrames(written.error());
-  if (options_.usd.velocities) {
-    std::swap(beforeLast_, last_);
-    std::swap(last_, points_);
-  }
+  points_.keep();
   return {};
 }
 
 Status UsdcWriter::writeFrame(std::span<const Vec3f> points, const UsdTransform& head) {
   const int frame = frameCount_ + 1;
-  points_.assign(points.begin(), points.end());
-  if (options_.usd.head != UsdHead::baked) {
-    const UsdTransform fromWorld = head.inverse();
-    for (Vec3f& point : points_) point = Vec3f(fromWorld(Vec3d(point)));
-  }
+  points_.take(points, head);
   for (const HairCurves& curves : curves_) {
     if (!curves.fromGroom) continue;
     const std::uint32_t first = firstPoint_[curves.firstStrand],
                         end = firstPoint_[curves.firstStrand + curves.strandCount];
-    for (Vec3f& point : std::span(points_).subspan(first, end - first))
+    for (Vec3f& point : std::span(points_.now()).subspan(first, end - first))
       point = Vec3f((*curves.fromGroom)(Vec3d(point)));
   }
   buffer_.assign(head_.earlyBytes, '\0');
   for (const HairCurves& curves : curves_) putCurves(curves, head);
   if (Status written = file_.writeAt(head_.placeOf(frame, {}), buffer_); !written) return written;
   if (options_.usd.velocities && frame > 1) {
-    const bool isFirst = frame == 2;
-    if (Status written = writeVelocities(frame - 1, isFirst ? last_ : beforeLast_, points_, isFirst ? 1 : 2);
-        !written)
-      return written;
+    if (Status written = writeVelocities(frame - 1, points_.velocitiesOfLast()); !written) return written;
   }
 
   // From now on it holds.
@@ -178,14 +165,9 @@ Status UsdcWriter::writeFrame(std::span<const Vec3f> points, const UsdTransform&
 void UsdcWriter::putCurves(const HairCurves& curves, const UsdTransform& head) {
   const std::uint32_t first = firstPoint_[curves.firstStrand],
                       end = firstPoint_[curves.firstStrand + curves.strandCount];
-  const std::span<const Vec3f> points = std::span(points_).subspan(first, end - first);
-  const float infinity = std::numeric_limits<float>::infinity();
-  Vec3f low{infinity, infinity, infinity}, high = -low;
-  for (const Vec3f p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  const Vec3f margin{curves.margin, curves.margin, curves.margin};
+  const std::span<const Vec3f> points = std::span(points_.now()).subspan(first, end - first);
+  const Bounds bounds = boundsOf(points);
+  const Vec3f low(bounds.low), high(bounds.high), margin{curves.margin, curves.margin, curves.margin};
   const std::array<Vec3f, 2> extent{low - margin, high + margin};
 
   const Moving moving = movingOf(curves);
@@ -194,18 +176,13 @@ void UsdcWriter::putCurves(const HairCurves& curves, const UsdTransform& head) {
   if (moving.head) putMatrix(head, buffer_.data() + moving.head->slot);
 }
 
-Status UsdcWriter::writeVelocities(int frame, std::span<const Vec3f> before, std::span<const Vec3f> after,
-                                   double frames) {
-  std::vector<Vec3f> velocities(after.size());
-  const double rate = options_.framesPerSecond / frames;
-  for (std::size_t i = 0; i < velocities.size(); ++i)
-    velocities[i] = Vec3f((Vec3d(after[i]) - Vec3d(before[i])) * rate);
+Status UsdcWriter::writeVelocities(int frame, std::span<const Vec3f> velocities) {
   std::string bytes(head_.frameBytes, '\0');
   for (const HairCurves& curves : curves_) {
     const std::uint32_t first = firstPoint_[curves.firstStrand],
                         end = firstPoint_[curves.firstStrand + curves.strandCount];
     const UsdcSamples* samples = movingOf(curves).velocities;
-    if (samples) putArray(std::span(velocities).subspan(first, end - first), *samples, bytes);
+    if (samples) putArray(velocities.subspan(first, end - first), *samples, bytes);
   }
   return file_.writeAt(endOf(frame), std::string_view(bytes).substr(head_.earlyBytes));
 }
@@ -308,17 +285,13 @@ Error UsdcWriter::keepFinishedFrames(const Error& cause) {
   // Nothing leads behind the end any more; where it cannot be cut off it does not matter.
   (void)forgetAfter(frameCount_);
   (void)file_.truncate(endOf(frameCount_));
-  if (frameCount_ == 0 || !file_.isThere()) return cause;
-  return {fmt::format("{} (the first {} frames are kept in {})", cause.message, frameCount_,
-                      file_.path().string()),
-          cause.fault};
+  return framesKept(cause, static_cast<std::size_t>(frameCount_), file_);
 }
 
 Status UsdcWriter::finish() {
   RINGLET_ASSERT(frameCount_ > 0, "a file without frames is not finished but dropped");
   if (options_.usd.velocities) {
-    const auto& before = frameCount_ > 1 ? beforeLast_ : last_;
-    if (Status written = writeVelocities(frameCount_, before, last_, 1); !written) return written;
+    if (Status written = writeVelocities(frameCount_, points_.velocitiesAtEnd()); !written) return written;
     if (Status led = leadTo(frameCount_, true); !led) return led;
   }
   if (frameCount_ < options_.frameCount) {

@@ -13,6 +13,7 @@
 #include "ringlet/groom/groom.h"
 #include "ringlet/output/animation_writer.h"
 #include "ringlet/output/byte_file.h"
+#include "ringlet/output/moving_points.h"
 #include "ringlet/output/usd/usd_hair_stage.h"
 #include "ringlet/output/usd/usdc_head.h"
 
@@ -24,9 +25,7 @@ namespace ringlet {
 /// where there are fewer frames than were announced, and renames it to PATH. A frame that fails (full disk)
 /// leaves the frames before it. Memory: the head, 24 bytes a frame that may come, and one frame; with
 /// velocities two more.
-///
-/// A frame's velocities are half of what points move from the frame before to the frame after, times the
-/// frames a second; so they are there once the next frame is, or finish() takes what the last has moved.
+/// Velocities are those of moving_points.h, and as late.
 class UsdcWriter : public AnimationWriter {
  public:
   /// Creates the file and writes everything but the frames.
@@ -64,8 +63,7 @@ class UsdcWriter : public AnimationWriter {
   std::uint64_t endOf(int frame) const;
   Status writeFrame(std::span<const Vec3f> points, const UsdTransform& head);
   void putCurves(const HairCurves& curves, const UsdTransform& head);
-  Status writeVelocities(int frame, std::span<const Vec3f> before, std::span<const Vec3f> after,
-                         double frames);
+  Status writeVelocities(int frame, std::span<const Vec3f> velocities);
   Status leadTo(int frame, bool later);
   Status forgetAfter(int frame);
   Status writeCounts(int frames);
@@ -82,9 +80,8 @@ class UsdcWriter : public AnimationWriter {
   AnimationOptions options_;
   std::vector<HairCurves> curves_;
   UsdcHead head_;
-  std::string buffer_;                    // a frame on its way to the file
-  std::vector<Vec3f> points_;             // of it, as they are written
-  std::vector<Vec3f> last_, beforeLast_;  // with velocities: of the frames before
+  std::string buffer_;  // a frame on its way to the file
+  MovingPoints points_;
   int frameCount_ = 0;
 };
 
