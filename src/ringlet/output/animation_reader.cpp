@@ -91,14 +91,9 @@ void AnimationReader::take(const UsdReader& usd) {
   takeHeader(usd);
 }
 
-void AnimationReader::take(const UsdcReader& usd) {
-  groom_.firstPoint = usd.firstPoint();
-  takeHeader(usd);
-}
-
-void AnimationReader::take(const AbcReader& abc) {
-  groom_.firstPoint = abc.firstPoint();
-  takeHeader(abc);
+void AnimationReader::take(const FrameReader& frames) {
+  groom_.firstPoint = frames.firstPoint();
+  takeHeader(frames);
 }
 
 void AnimationReader::take(const CacheReader& cache) {

@@ -53,8 +53,7 @@ class AnimationReader {
   using Reader = std::variant<UsdReader, UsdcReader, AbcReader, CacheReader>;
   explicit AnimationReader(Reader reader) : reader_(std::move(reader)) {}
   void take(const UsdReader& usd);
-  void take(const UsdcReader& usd);
-  void take(const AbcReader& abc);
+  void take(const FrameReader& frames);
   void take(const CacheReader& cache);
   void takeHeader(const auto& reader);
   Status checkEnd(UsdReader& usd);

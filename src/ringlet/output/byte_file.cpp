@@ -62,6 +62,35 @@ Result<OpenFile> openToRead(const fs::path& path) {
   return opened ? Result<OpenFile>(std::move(opened)) : cannotRead(path, "not enough memory");
 }
 
+Result<ReadFile> ReadFile::open(const fs::path& path) {
+  auto opened = openToRead(path);
+  if (!opened) return opened.error();
+  ReadFile file;
+  file.file_ = std::move(*opened);
+  file.path_ = path;
+  std::error_code code;
+  file.size_ = fs::file_size(path, code);
+  if (code) return cannotRead(path, code.message());
+  return file;
+}
+
+bool ReadFile::has(std::uint64_t offset, std::uint64_t count) const {
+  return offset <= size_ && count <= size_ - offset;
+}
+
+Status ReadFile::readAt(std::uint64_t offset, std::size_t count, std::vector<std::byte>& bytes) {
+  const auto failed = [&] {
+    return Error{fmt::format("cannot read bytes {} to {} of {}", offset, offset + count, path_.string()),
+                 Fault::input};
+  };
+  if (!has(offset, count)) return failed();
+  bytes.resize(count);
+  if (fseeko(file_.get(), static_cast<off_t>(offset), SEEK_SET) != 0 ||
+      std::fread(bytes.data(), 1, count, file_.get()) != count)
+    return failed();
+  return {};
+}
+
 Result<ByteFile> ByteFile::create(const fs::path& path) {
   auto file = openLocked(path, O_CREAT);
   if (!file) return file;

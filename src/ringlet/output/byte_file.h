@@ -1,13 +1,15 @@
-// ByteFile: a file being written, in which every failure (no permission, full disk) becomes a sentence for a
-// person.
+// ByteFile and ReadFile: a file being written and one being read, in which every failure (no permission, full
+// disk) becomes a sentence for a person.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "ringlet/base/result.h"
 
@@ -20,6 +22,27 @@ using OpenFile = std::unique_ptr<std::FILE, FileCloser>;
 
 /// To be read from its beginning: a regular file; a pipe would make the reader wait.
 Result<OpenFile> openToRead(const std::filesystem::path& path);
+
+/// A file being read, any bytes of it at a time.
+class ReadFile {
+ public:
+  /// Errors: those of openToRead; its size cannot be asked for.
+  static Result<ReadFile> open(const std::filesystem::path& path);
+
+  /// Whether the file has these bytes.
+  bool has(std::uint64_t offset, std::uint64_t count) const;
+  /// Those bytes, in place of what `bytes` holds. Errors: the file does not have them, and `bytes` is as it
+  /// was; a failing disk.
+  Status readAt(std::uint64_t offset, std::size_t count, std::vector<std::byte>& bytes);
+
+  std::uint64_t size() const { return size_; }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  OpenFile file_;
+  std::filesystem::path path_;
+  std::uint64_t size_ = 0;
+};
 
 /// Unbuffered: what a call wrote is with the operating system when it returns, so killing the program loses
 /// none of it. One process at a time has it (an advisory lock). What one call writes within a page of kPage

@@ -24,14 +24,9 @@ bool isBound(double value) { return std::isfinite(value) && value >= 0; }
 }  // namespace
 
 Result<CacheReader> CacheReader::open(const std::filesystem::path& path) {
-  CacheReader reader;
-  reader.path_ = path;
-  auto opened = openToRead(path);
-  if (!opened) return opened.error();
-  reader.file_ = std::move(*opened);
-  std::error_code code;
-  reader.size_ = std::filesystem::file_size(path, code);
-  if (code) return Error{fmt::format("cannot read {}: {}", path.string(), code.message())};
+  auto file = ReadFile::open(path);
+  if (!file) return file.error();
+  CacheReader reader(std::move(*file));
   if (Status read = reader.readHeader(); !read) return read.error();
   if (Status read = reader.readStrands(); !read) return read.error();
   reader.isFinished_ = reader.readIndex();
@@ -41,14 +36,14 @@ Result<CacheReader> CacheReader::open(const std::filesystem::path& path) {
 
 Status CacheReader::readHeader() {
   std::vector<std::byte> bytes;
-  if (!read(0, cache::kHeaderBytes, bytes))
+  if (!file_.readAt(0, cache::kHeaderBytes, bytes))
     return Error{fmt::format("{}: has {} bytes; expected a Ringlet cache, whose header alone has {}",
-                             path_.string(), size_, cache::kHeaderBytes)};
+                             file_.path().string(), file_.size(), cache::kHeaderBytes)};
   const cache::ParsedHeader parsed = cache::parseHeader(bytes);
   if (!parsed.header)
     return Error{
         fmt::format("{}: {}; expected a cache that `ringlet simulate --cache` or `ringlet convert` wrote",
-                    path_.string(), parsed.fault)};
+                    file_.path().string(), parsed.fault)};
   header_ = *parsed.header;
   return {};
 }
@@ -56,7 +51,7 @@ Status CacheReader::readHeader() {
 Status CacheReader::readStrands() {
   const std::uint64_t at = cache::kHeaderBytes;
   std::vector<std::byte> bytes;
-  if (!read(at, cache::kChunkHeaderBytes, bytes)) return damaged("ends before its strands");
+  if (!file_.readAt(at, cache::kChunkHeaderBytes, bytes)) return damaged("ends before its strands");
   const cache::ChunkHeader chunk = cache::parseChunkHeader(bytes);
   const std::uint64_t strandCount = chunk.number;
   if (!readChunk(at, ChunkKind::strands, strandCount, 4 * strandCount, content_))
@@ -77,14 +72,15 @@ Status CacheReader::readStrands() {
 // Where the frames are, from the file's end; false if that is not whole.
 bool CacheReader::readIndex() {
   std::vector<std::byte> end;
-  if (size_ < framesAt_ + cache::kEndBytes || !read(size_ - cache::kEndBytes, cache::kEndBytes, end))
+  if (file_.size() < framesAt_ + cache::kEndBytes ||
+      !file_.readAt(file_.size() - cache::kEndBytes, cache::kEndBytes, end))
     return false;
   if (!std::ranges::equal(std::span(end).last(cache::kEndMagic.size()),
                           std::as_bytes(std::span(cache::kEndMagic))))
     return false;
   const std::uint64_t at = readU64(end, 0);
   std::vector<std::byte> bytes;
-  if (at < framesAt_ || !read(at, cache::kChunkHeaderBytes, bytes)) return false;
+  if (at < framesAt_ || !file_.readAt(at, cache::kChunkHeaderBytes, bytes)) return false;
   const std::uint64_t count = cache::parseChunkHeader(bytes).number;
   if (count > std::numeric_limits<int>::max() ||
       !readChunk(at, ChunkKind::index, count, cache::kIndexEntryBytes * count, content_))
@@ -106,11 +102,11 @@ void CacheReader::scan() {
   std::uint64_t at = framesAt_;
   std::vector<std::byte> bytes;
   bool meetsIndex = false;
-  while (read(at, cache::kChunkHeaderBytes, bytes)) {
+  while (file_.readAt(at, cache::kChunkHeaderBytes, bytes)) {
     const cache::ChunkHeader chunk = cache::parseChunkHeader(bytes);
     meetsIndex = chunk.kind == ChunkKind::index;
     if (chunk.kind != ChunkKind::frame || chunk.number != frames_.size() + 1 || !isBound(chunk.errorBound) ||
-        chunk.storedBytes > size_ - at - cache::kChunkHeaderBytes ||
+        chunk.storedBytes > file_.size() - at - cache::kChunkHeaderBytes ||
         frames_.size() == std::numeric_limits<int>::max())
       break;
     frames_.push_back({at, chunk.errorBound});
@@ -125,11 +121,11 @@ void CacheReader::scan() {
   framesEnd_ = at;
   if (meetsIndex) {
     warnings_.push_back(fmt::format("{}: its index is damaged; its {} frames were found without it",
-                                    path_.string(), frames_.size()));
-  } else if (at < size_) {
+                                    file_.path().string(), frames_.size()));
+  } else if (at < file_.size()) {
     warnings_.push_back(
         fmt::format("{}: frame {} is torn or damaged; dropped the last {} bytes, {} frames are whole",
-                    path_.string(), frames_.size() + 1, size_ - at, frames_.size()));
+                    file_.path().string(), frames_.size() + 1, file_.size() - at, frames_.size()));
   }
 }
 
@@ -145,22 +141,15 @@ Status CacheReader::readFrame(int frame, std::vector<Vec3f>& points) {
   return {};
 }
 
-// Any bytes of the file, if it has them.
-bool CacheReader::read(std::uint64_t offset, std::size_t count, std::vector<std::byte>& bytes) {
-  if (offset > size_ || count > size_ - offset) return false;
-  bytes.resize(count);
-  return fseeko(file_.get(), static_cast<off_t>(offset), SEEK_SET) == 0 &&
-         std::fread(bytes.data(), 1, count, file_.get()) == count;
-}
-
 // The content of the chunk at `offset`, which must be of this kind, number and size. No memory is taken for
 // what the file is too short for.
 bool CacheReader::readChunk(std::uint64_t offset, ChunkKind kind, std::uint64_t number,
                             std::uint64_t contentBytes, std::vector<std::byte>& content) {
-  if (!read(offset, cache::kChunkHeaderBytes, chunk_)) return false;
+  if (!file_.readAt(offset, cache::kChunkHeaderBytes, chunk_)) return false;
   const cache::ChunkHeader chunk = cache::parseChunkHeader(chunk_);
   if (chunk.kind != kind || chunk.number != number || !cache::canHold(chunk.storedBytes, contentBytes) ||
-      chunk.storedBytes > size_ || !read(offset, cache::kChunkHeaderBytes + chunk.storedBytes, chunk_))
+      chunk.storedBytes > file_.size() ||
+      !file_.readAt(offset, cache::kChunkHeaderBytes + chunk.storedBytes, chunk_))
     return false;
   content.resize(contentBytes);
   return cache::unpack(chunk_, content);
@@ -177,7 +166,7 @@ std::uint64_t CacheReader::endOf(int frame) const {
 }
 
 Error CacheReader::damaged(std::string_view what) const {
-  return Error{fmt::format("{}: {}", path_.string(), what)};
+  return Error{fmt::format("{}: {}", file_.path().string(), what)};
 }
 
 }  // namespace ringlet

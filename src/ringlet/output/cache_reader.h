@@ -31,7 +31,7 @@ class CacheReader {
   std::size_t strandCount() const { return firstPoint_.size() - 1; }
   std::size_t particleCount() const { return firstPoint_.back(); }
   const std::vector<std::uint32_t>& firstPoint() const { return firstPoint_; }  // as in Groom
-  std::uint64_t byteCount() const { return size_; }                             // of the file
+  std::uint64_t byteCount() const { return file_.size(); }
   /// The farthest that a point of this frame, or of any, may be from the one that was written [m].
   double errorBound(int frame) const { return frames_[static_cast<std::size_t>(frame) - 1].errorBound; }
   double errorBound() const;
@@ -49,19 +49,16 @@ class CacheReader {
     double errorBound = 0;     // [m]
   };
 
-  CacheReader() = default;
+  explicit CacheReader(ReadFile file) : file_(std::move(file)) {}
   Status readHeader();
   Status readStrands();
   bool readIndex();
   void scan();
-  bool read(std::uint64_t offset, std::size_t count, std::vector<std::byte>& bytes);
   bool readChunk(std::uint64_t offset, cache::ChunkKind kind, std::uint64_t number,
                  std::uint64_t contentBytes, std::vector<std::byte>& content);
   Error damaged(std::string_view what) const;
 
-  OpenFile file_;
-  std::filesystem::path path_;
-  std::uint64_t size_ = 0;      // of the file [byte]
+  ReadFile file_;
   std::uint64_t framesAt_ = 0;  // where the first frame's chunk begins [byte]
   CacheHeader header_;
   std::vector<std::uint32_t> firstPoint_{0};
