@@ -24,6 +24,9 @@ inline constexpr double kLeaveSpeed = 0.2;  // [m/s]: what begins inside leaves 
 // What is deeper inside [m] leaves across its strand, which else would be stretched or crushed, held by this
 // share of the weight.
 inline constexpr double kDeep = 1e-3, kDeepShare = 0.04;
+// [m]: what began no deeper goes no deeper. Beyond, where the way out may be on any side, it may by this
+// multiple of how far beyond it began: without a jump, by which rounding would show.
+inline constexpr double kHeldDepth = 2e-3, kGivenDepth = 20;
 inline constexpr double kBodyWeight = 200;    // of what holds a particle at its allowed speed, in its masses
 inline constexpr double kFullDeficit = 0.01;  // [m/s]: of a deficit that gives half of that weight: without a
                                               // ramp, rounding would decide whether what just rests is held
@@ -33,6 +36,14 @@ inline constexpr std::size_t kMostBuried = 4;
 // After the move, out of bodies and within the stretch limit, by turns, until edges are short enough.
 inline constexpr int kKeepOutRounds = 8;
 inline constexpr double kLeastShare = 0.2;  // an edge touched nearer its other end does not move this one
+
+/// The least distance at a step's end [m] of a particle that had this one at its start: 0 of what was
+/// outside.
+template <class Real>
+Real leastDistance(Real before) {
+  return std::min(before + Real(kOutside), Real(0)) +
+         Real(kGivenDepth) * std::min(before + Real(kHeldDepth), Real(0));
+}
 
 /// Where a way first touches.
 template <class Real>

@@ -47,7 +47,8 @@ Met<Real> meet(const BodyStep<Real>& step, const Vector3<Real>& p, const Vector3
           step.velocityAt(p, touch.way)};
 }
 
-/// A particle that began the step outside, at y0, and has moved to y1: out of the body, the way it came.
+/// A particle that began the step at y0 and has moved to y1: out of the body, the way it came; or if it began
+/// inside, up to leastDistance().
 template <class Real>
 struct KeptOut {
   bool moved = false;
@@ -60,29 +61,30 @@ KeptOut<Real> keptOut(const BodyStep<Real>& step, const Vector3<Real>& y0, Vecto
                                              static_cast<Real>(step.body->thickness));
     return {kept.moved, kept.place, kept.normal};
   }
-  if (bodyDistance<Real>(step.shapeNow, y0).distance < Real(-kOutside)) return {};
+  const Real before = bodyDistance<Real>(step.shapeNow, y0).distance;
+  const Real least = leastDistance(before);
   const Touch<Real> touch =
       traceParticle<Real>(step.shapeNow, y0, Vector3<Real>(y1 - step.bentOnPath(y0, y1)));
   // The surface by which it ends may move otherwise than the one that it was traced to.
-  const bool isWithin = step.shapeNext.field && bodyDistance<Real>(step.shapeNext, y1).distance < Real(0);
+  const bool isWithin = step.shapeNext.field && bodyDistance<Real>(step.shapeNext, y1).distance < least;
   if (!touch.found && !isWithin) return {};
   const Vector3<Real> held = touch.place + step.bent(touch.place);
   const Vector3<Real> came = y1;
   // Onto the plane where it touched, then out of what curves beyond it; else back to the place itself.
-  const Real beyond = touch.surface.normal.dot(y1 - held) + touch.surface.distance;
+  const Real beyond = touch.surface.normal.dot(y1 - held) + touch.surface.distance - least;
   Vector3<Real> normal = touch.surface.normal;
   if (touch.found) y1 -= std::min(beyond, Real(0)) * normal;
   for (int turn = 0; turn < 3; ++turn) {
     const Surface<Real> surface = bodyDistance<Real>(step.shapeNext, y1);
-    if (surface.distance >= Real(0)) continue;
-    y1 -= surface.distance * surface.normal;
+    if (surface.distance >= least) continue;
+    y1 -= (surface.distance - least) * surface.normal;
     normal = surface.normal;
   }
-  if (bodyDistance<Real>(step.shapeNext, y1).distance < Real(-kOutside)) {
+  if (bodyDistance<Real>(step.shapeNext, y1).distance - least < Real(-kOutside)) {
     y1 = held;
     // Another surface has closed in on it.
     const Surface<Real> there = bodyDistance<Real>(step.shapeNext, held);
-    if (step.shapeNext.field) y1 -= std::min(there.distance, Real(0)) * there.normal;
+    if (step.shapeNext.field) y1 -= std::min(there.distance - least, Real(0)) * there.normal;
   }
   return {(y1 - came).norm() > Real(0), y1, normal};
 }

@@ -18,6 +18,10 @@ const float kOutside = 1e-4;        // [m]: a smaller depth counts as outside, a
 const float kLeaveSpeed = 0.2;      // [m/s]: largest speed at which something that began inside leaves
 const float kDeep = 1e-3;           // [m]: a deeper particle leaves across its strand, which would otherwise
                                     // be stretched
+const float kHeldDepth = 2e-3;      // [m]: what began no deeper goes no deeper; beyond, the way out may be on
+                                    // any side: it may go deeper by this
+const float kGivenDepth = 20.0;     // multiple of how far beyond it began, without a jump by which rounding
+                                    // would show
 const float kDeepShare = 0.04;      // or crushed; it is held by this share of the weight
 const float kBodyWeight = 200.0;    // weight that holds a particle at its allowed speed, in its masses
 const float kFullDeficit = 0.01;    // [m/s]: the deficit with half of that weight: without a ramp, rounding
@@ -185,18 +189,19 @@ vec3 slowedInward(vec3 relative, vec3 n, float shift, float T) {
   return clamp(-dot(n, relative), 0.0, max(shift, 0.0) / T) * n;
 }
 
-/// A particle that began the step outside, at y0, and has moved to y1: moves it out of the body where it came
-/// in. The place of contact moves on with the surface; where another surface has closed in on it, it leaves that
-/// one.
+/// A particle that began the step at y0 and has moved to y1: moves it out of the body where it came in, or if it
+/// began inside, to the depth that this allows (kHeldDepth). The place of contact moves on with the surface; where
+/// another surface has closed in on it, it leaves that one.
 KeptOut keptOut(BodyStep body, vec3 y0, vec3 y1) {
 #ifdef RINGLET_BENDING
   if (isCloth(body.rest)) return keptOff(body, y0, y1);
 #endif
   Touch touch = traceParticle(body.rest, body.before.field, y0, y1 - bentOnPath(body, y0, y1));
   vec3 held = touch.place + bent(body, touch.place);
+  float kept = min(touch.before + kOutside, 0.0) + kGivenDepth * min(touch.before + kHeldDepth, 0.0);
   // Onto the plane where it touched, then out of what curves beyond it; if that fails, back to the place of
   // contact.
-  float beyond = dot(touch.surface.normal, y1 - held) + touch.surface.distance;
+  float beyond = dot(touch.surface.normal, y1 - held) + touch.surface.distance - kept;
   vec3 normal = touch.surface.normal;
   vec3 y = y1 - min(beyond, 0.0) * normal;
   bool isWithin = false;  // though nothing was met: the surface by which it ends moves otherwise
@@ -207,9 +212,9 @@ KeptOut keptOut(BodyStep body, vec3 y0, vec3 y1) {
   int turn = 0;
   do {
     Surface surface = surfaceAt(body.rest, body.after.field, y);
-    if (depth < 0.0) depth = surface.distance;
+    if (depth < 0.0) depth = surface.distance - kept;
 #ifdef RINGLET_BENDING
-    isWithin = isWithin || (turn == 0 && surface.distance < 0.0);
+    isWithin = isWithin || (turn == 0 && surface.distance < kept);
 #endif
     if (depth < 0.0 && turn < 3) {
       y -= depth * surface.normal;
@@ -220,10 +225,10 @@ KeptOut keptOut(BodyStep body, vec3 y0, vec3 y1) {
     y = held;
 #ifdef RINGLET_BENDING
     Surface closing = surfaceAt(body.rest, body.after.field, held);
-    y -= min(closing.distance, 0.0) * closing.normal;
+    y -= min(closing.distance - kept, 0.0) * closing.normal;
 #endif
   }
-  return KeptOut(touch.before >= -kOutside && (touch.found || isWithin) && y != y1, y, normal);
+  return KeptOut((touch.found || isWithin) && y != y1, y, normal);
 }
 
 #endif

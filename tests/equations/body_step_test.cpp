@@ -157,6 +157,35 @@ TEST(BodyStep, LeavesABodyGently) {
   }
 }
 
+// A tip that begins a step inside and is thrown in: no deeper afterwards, or no deeper than allowed.
+TEST(BodyStep, WhatBeginsInsideGoesNoDeeper) {
+  for (const Body& shape :
+       {Body{.shape = BodyShape::sphere, .radius = 0.04},
+        Body{.shape = BodyShape::capsule, .radius = 0.03, .length = 0.03},
+        Body{.shape = BodyShape::box, .halfExtents = {0.03, 0.02, 0.03}}, gridBall(0.04, 0.003)}) {
+    for (const double depth : {2e-4, 1e-3, 1.9e-3, 2.2e-3}) {
+      // The place above the body's middle that is so deep.
+      double low = 0, high = 0.1;
+      while (high - low > 1e-9) {
+        const double middle = 0.5 * (low + high);
+        (bodyDistance<double>(shape, Vector(0, middle, 0)).distance < -depth ? low : high) = middle;
+      }
+      Body body = shape;
+      body.place.position = {0.25, -low, 0};
+      for (const double speed : {1.0, 5.0, 20.0}) {
+        auto simulation = among(straightStrand({0.25, 0, 0}, 16), {body});
+        const Field<double> positions = simulation.positions();
+        Field<double> velocities = simulation.velocities();
+        for (std::size_t i = 1; i < velocities.size(); ++i) velocities[i] = {0, -speed, 0};
+        simulation.setState(positions, velocities);
+        simulateStill(simulation, 1.0 / 192);
+        EXPECT_LT(deepest(simulation, body, 15), std::max(depth, -leastDistance(-depth)) + 1e-5)
+            << speed << " m/s, from " << depth << " m";
+      }
+    }
+  }
+}
+
 // A head that carries strand and ball along gives what both give at rest.
 TEST(BodyStep, MovesWithTheHead) {
   Body ball{.shape = BodyShape::sphere, .radius = 0.06};
