@@ -67,17 +67,19 @@ Vector3<double> outOfBodies(const HairPoint& point, std::span<const Body> bodies
 }
 
 // Where on its guide point i of a hair is [particles]. A shorter hair lags behind its guide, but for the
-// root.
-double alongGuide(std::size_t i, const FollowHair& hair, std::size_t last) {
+// root; one with points of its own has been told.
+double alongGuide(std::size_t i, const FollowHair& hair, std::size_t last, std::span<const OwnPoint> own) {
+  if (!own.empty()) return static_cast<double>(own[i].along);
   const double share = static_cast<double>(i) / static_cast<double>(last);
   return static_cast<double>(i) * (1 + (static_cast<double>(hair.length) - 1) * risesOver(0.2, share));
 }
 
 }  // namespace
 
-std::size_t pointsBefore(std::size_t begin, const FollowHair& hair, std::size_t points) {
+std::size_t pointsBefore(std::size_t begin, const FollowHair& hair, std::size_t points,
+                         std::span<const OwnPoint> own) {
   std::size_t i = 0;
-  while (i < points && alongGuide(i, hair, points - 1) < static_cast<double>(begin) - 0.5) ++i;
+  while (i < points && alongGuide(i, hair, points - 1, own) < static_cast<double>(begin) - 0.5) ++i;
   return i;
 }
 
@@ -129,8 +131,9 @@ GuidePose poseGuide(const GuideRest& rest, std::span<const Vec3d> positions, Qua
 
 std::vector<Vec3d> followGuide(const FollowHair& hair, const GuidePose& guide, std::span<const Body> bodies,
                                std::span<const BodyPose> poses, std::optional<Vec3d> rootOnScalp,
-                               const OtherPoses& others) {
-  const std::size_t last = guide.places.size() - 1;
+                               const OtherPoses& others, std::span<const OwnPoint> own) {
+  const std::size_t lastOfGuide = guide.places.size() - 1;
+  const std::size_t last = own.empty() ? lastOfGuide : own.size() - 1;
   const Vector3<double> guideRoot = pointOf(guide.places.front());
   const Vector3<double> rootOffset = rootOnScalp
                                          ? Vector3<double>(toEigen<double>(*rootOnScalp) - guideRoot)
@@ -138,23 +141,28 @@ std::vector<Vec3d> followGuide(const FollowHair& hair, const GuidePose& guide, s
   const Vector3<double> root = guideRoot + rootOffset;
   std::vector<Vec3d> points;
   for (std::size_t i = 0; i <= last; ++i) {
-    const double share = static_cast<double>(i) / static_cast<double>(last);
-    const double along = alongGuide(i, hair, last);
+    const double along = alongGuide(i, hair, last, own);
+    const double share =
+        own.empty() ? static_cast<double>(i) / static_cast<double>(last)
+                    : std::min(along / (static_cast<double>(hair.length) * static_cast<double>(lastOfGuide)), 1.0);
     HairPoint point{{}, root, share, {besideOf(guide, along, 1)}};
-    const GuidePlace<double> own = point.guides.front().place();
-    point.x = followedPoint(hair, own, rootOffset, share);
-    const Vector3<double> withOwn = blendedPoint(hair, toEigen<double>(hair.offset), own, rootOffset, share);
+    const GuidePlace<double> beside = point.guides.front().place();
+    point.x = followedPoint(hair, beside, rootOffset, share);
+    if (!own.empty()) point.x += beside.frame * toEigen<double>(own[i].shift);
+    const Vector3<double> withOwn =
+        blendedPoint(hair, toEigen<double>(hair.offset), beside, rootOffset, share);
     for (std::size_t k = 0; k < others.size(); ++k) {
       if (!others[k]) continue;
       const FollowHair::Other& other = hair.others[k];
       const auto weight = static_cast<double>(other.share);
       const double itsLast = static_cast<double>(others[k]->places.size() - 1);
-      const Beside beside = besideOf(*others[k], along / static_cast<double>(last) * itsLast, weight);
+      const Beside besideIt =
+          besideOf(*others[k], along / static_cast<double>(lastOfGuide) * itsLast, weight);
       const Vector3<double> fromIts = root - pointOf(others[k]->places.front());
-      point.x += weight * (blendedPoint(hair, toEigen<double>(other.offset), beside.place(), fromIts, share) -
+      point.x += weight * (blendedPoint(hair, toEigen<double>(other.offset), besideIt.place(), fromIts, share) -
                            withOwn);
       point.guides.front().weight -= weight;
-      point.guides.push_back(beside);
+      point.guides.push_back(besideIt);
     }
     const Vector3<double> x = outOfBodies(point, bodies, poses);
     points.push_back({x.x(), x.y(), x.z()});
@@ -164,11 +172,11 @@ std::vector<Vec3d> followGuide(const FollowHair& hair, const GuidePose& guide, s
 
 std::vector<Vec3d> followGuides(const FollowHair& hair, std::span<const GuidePose> guides,
                                 std::span<const Body> bodies, std::span<const BodyPose> poses,
-                                std::optional<Vec3d> rootOnScalp) {
+                                std::optional<Vec3d> rootOnScalp, std::span<const OwnPoint> own) {
   OtherPoses others{};
   for (std::size_t k = 0; k < others.size(); ++k)
     if (hair.others[k].share > 0) others[k] = &guides[hair.others[k].guide];
-  return followGuide(hair, guides[hair.guide], bodies, poses, rootOnScalp, others);
+  return followGuide(hair, guides[hair.guide], bodies, poses, rootOnScalp, others, own);
 }
 
 }  // namespace ringlet::reference

@@ -31,20 +31,22 @@ using OtherPoses = std::array<const GuidePose*, 2>;
 /// it [m], or as before the first frame where there are none; of cloth a grain.
 std::vector<Body> bodiesMetAt(std::span<const Body> bodies, std::span<const std::vector<Vec3d>> points);
 
-/// The points of a hair, as many as its guide's [m], out of bodies at `poses`, one a body. `rootOnScalp`:
-/// where its root is in this pose [m]; none: where the head carries it.
+/// The points of a hair [m]: `own`, or where it is empty as many as its guide's; out of bodies at `poses`, one
+/// a body. `rootOnScalp`: where its root is in this pose [m]; none: where the head carries it.
 std::vector<Vec3d> followGuide(const FollowHair& hair, const GuidePose& guide,
                                std::span<const Body> bodies = {}, std::span<const BodyPose> poses = {},
                                std::optional<Vec3d> rootOnScalp = std::nullopt,
-                               const OtherPoses& others = {});
+                               const OtherPoses& others = {}, std::span<const OwnPoint> own = {});
 
 /// The same with all guides' poses.
 std::vector<Vec3d> followGuides(const FollowHair& hair, std::span<const GuidePose> guides,
                                 std::span<const Body> bodies = {}, std::span<const BodyPose> poses = {},
-                                std::optional<Vec3d> rootOnScalp = std::nullopt);
+                                std::optional<Vec3d> rootOnScalp = std::nullopt,
+                                std::span<const OwnPoint> own = {});
 
-/// How many points of a hair, of as many as its guide has, are before the piece of the guide that begins with
-/// particle `begin`.
-std::size_t pointsBefore(std::size_t begin, const FollowHair& hair, std::size_t points);
+/// How many points of a hair, `own` or of as many as its guide has, are before the piece of the guide that
+/// begins with particle `begin`.
+std::size_t pointsBefore(std::size_t begin, const FollowHair& hair, std::size_t points,
+                         std::span<const OwnPoint> own = {});
 
 }  // namespace ringlet::reference

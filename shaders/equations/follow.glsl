@@ -10,7 +10,8 @@
 //
 //     sum_j w_j (y_j - y_1),   y_j = c_j + (1 - r) F_j z_j + k ((1 - r) e_j + r F_j d_j)
 //
-// and keeps the first guide's curl. It is pushed out of a body by
+// and keeps the first guide's curl. A hair with points of its own has, beside them, its own shape at rest: x moves
+// by F q, with q what at rest is left of it, along F. It is pushed out of a body by
 //
 //     max(min(0, D, (1 - r) D_root) - d_x, 0)
 //

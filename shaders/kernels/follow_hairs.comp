@@ -1,5 +1,5 @@
-// Every point of every hair that follows a guide: an invocation for each point, with as many points in a hair
-// as the longest guide has particles. Compiled with RINGLET_AMONG_BODIES it also lists points inside bodies,
+// Every point of every hair that follows a guide: an invocation for each point, with as many for each hair as
+// the one with the most points has. Compiled with RINGLET_AMONG_BODIES it also lists points inside bodies,
 // for follow_bodies.comp. Mirrored by reference/follow_guide.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -28,7 +28,7 @@ void main() {
   if (h >= parameters.count) return;
   FollowHair hair = followHair(h);
   FollowGuide guide = followGuide(hair.guide);
-  if (i >= guide.particleCount) return;
+  if (i >= pointCountOf(h, hair, guide)) return;
   HairOnGuide point = hairOnGuide(h, i, hair, guide);
   vec3 x = followed(point);
   hairPoints[hair.firstPoint + i] = uvec4(floatBitsToUint(x), point.tag);

@@ -26,9 +26,14 @@ RINGLET_CONSTANT uint kBindInsideCount = 9;   // InsideCount
 RINGLET_CONSTANT uint kBindInsidePoints = 10; // uint[points inside bodies]: index of the invocation of
                                               // follow_hairs
 RINGLET_CONSTANT uint kBindFollowBlends = 11; // FollowBlend[hairs], if hairs follow several guides
+RINGLET_CONSTANT uint kBindOwnPoints = 12;    // vec4[points of hairs] with kSpecOwnPoints: shift from the
+                                              // guide along the frame beside it [m], position on the guide
+                                              // in edges; else vec4[1], unused
 // True: roots are at FollowHair::rootOffset, on a deforming scalp; false: the head carries them.
 RINGLET_CONSTANT uint kSpecOnScalp = 2;
 RINGLET_CONSTANT uint kSpecCutGuides = 3;  // guides may be cut
+RINGLET_CONSTANT uint kSpecOwnPoints = 4;  // hairs have points of their own, else those of their guides; then
+                                           // one more FollowHair has the firstPoint after the last
 // The same as texels, with these added to the binding numbers:
 RINGLET_CONSTANT uint kFollowTexels = 40;
 
@@ -77,7 +82,7 @@ struct InsideCount {
 struct FollowParameters {
   vec4 head;      // quaternion: rotation of the head relative to the rest pose
   uint count;     // number of invocations that have work
-  uint stride;    // invocations for each hair: the most particles of a guide
+  uint stride;    // invocations for each hair: the most points of one
   uint particles; // of all guides
   uint bodyCount; // number of bodies that hairs are kept out of
 };

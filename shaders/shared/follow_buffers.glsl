@@ -9,6 +9,7 @@
 
 layout(constant_id = kSpecOnScalp) const bool kOnScalp = false;
 layout(constant_id = kSpecCutGuides) const bool kCutGuides = false;
+layout(constant_id = kSpecOwnPoints) const bool kOwnPoints = false;
 
 layout(set = 0, binding = kBindGuidePoints) readonly buffer GuidePoints { vec4 guidePoints[]; };
 layout(set = 0, binding = kBindCoreRows) readonly buffer CoreRows { CoreRow coreRows[]; };

@@ -9,6 +9,13 @@
 layout(set = 0, binding = kBindCores) readonly buffer Cores { vec4 cores[]; };
 layout(set = 0, binding = kBindCoreFrames) readonly buffer CoreFrames { vec4 coreFrames[]; };
 layout(set = 0, binding = kBindCurls) readonly buffer Curls { vec4 curls[]; };
+layout(set = 0, binding = kBindOwnPoints) readonly buffer OwnPoints { vec4 ownPoints[]; };
+layout(set = 0, binding = kFollowTexels + kBindOwnPoints) uniform usamplerBuffer ownPointTexels;
+
+vec4 ownPoint(uint i) { return kTexels ? vectorAt(ownPointTexels, i) : ownPoints[i]; }
+uint pointCountOf(uint h, FollowHair hair, FollowGuide guide) {
+  return kOwnPoints ? followHair(h + 1).firstPoint - hair.firstPoint : guide.particleCount;
+}
 
 GuidePlace placeAt(uint i) {
   if (!kTexels) return GuidePlace(cores[i].xyz, curls[i].xyz, coreFrames[i]);
@@ -46,6 +53,7 @@ struct HairOnGuide {
   vec3 rootOffset;  // from the guide's root to the hair's, in this pose [m]
   float share;      // of the way from root to tip
   float along;      // position on the guide, in edges
+  vec3 shift;       // with points of its own, along the frame beside it [m]
   GuideBeside own;
 #ifdef RINGLET_BLENDS
   float weights[2];     // of the other guides' cores
@@ -71,27 +79,35 @@ void besideOther(uint k, FollowBlend blend, vec3 root, inout HairOnGuide point) 
 // Position of point i of a hair on its guide, in edges. Points of a shorter hair lie further back, except at
 // the root.
 float alongGuide(uint i, FollowHair hair, FollowGuide guide) {
+  if (kOwnPoints) return ownPoint(hair.firstPoint + i).w;
   float share = float(i) / float(guide.particleCount - 1);
   return float(i) * (1.0 + (hair.lengthShare - 1.0) * risesOver(0.2, share));
 }
 
-// Whether the guide is cut between points i and i + 1 of a hair, which are at most a particle apart.
+// Whether the guide is cut between points i and i + 1 of a hair.
 bool isCutAfter(uint i, FollowHair hair, FollowGuide guide) {
   AlongGuide here = placeAlong(guide, alongGuide(i, hair, guide));
   AlongGuide next = placeAlong(guide, alongGuide(i + 1, hair, guide));
   uint at = here.after - (here.between < 1.0 ? 1 : 0);
   uint nextAt = next.after - (next.between < 1.0 ? 1 : 0);
-  return at < nextAt && isCutBeyond(guide.firstParticle + nextAt - 1);
+  bool isCut = false;
+  for (uint k = at; k < nextAt; ++k) isCut = isCut || isCutBeyond(guide.firstParticle + k);
+  return isCut;
 }
 
-/// Point i of hair h; i must be below the guide's particleCount.
+/// Point i of hair h; i must be below pointCountOf it.
 HairOnGuide hairOnGuide(uint h, uint i, FollowHair hair, FollowGuide guide) {
   HairOnGuide point;
-  uint last = guide.particleCount - 1;
+  uint last = pointCountOf(h, hair, guide) - 1;
   point.hair = hair;
   point.guide = guide;
-  point.share = float(i) / float(last);
   point.along = alongGuide(i, hair, guide);
+  point.share = float(i) / float(last);
+  point.shift = vec3(0.0);
+  if (kOwnPoints) {
+    point.share = min(point.along / (hair.lengthShare * float(guide.particleCount - 1)), 1.0);
+    point.shift = ownPoint(hair.firstPoint + i).xyz;
+  }
   point.rootOffset = kOnScalp ? vec3(hair.rootOffset[0], hair.rootOffset[1], hair.rootOffset[2])
                               : rotate(multiply(parameters.head, guide.restFrame), hair.offset);
   point.own = besideOf(guide, point.along);
@@ -110,6 +126,7 @@ vec3 followed(HairOnGuide point) {
   GuidePlace place = placeOf(point.own);
   vec3 x = followedPoint(point.hair.phase, point.hair.radius, point.hair.spread, point.hair.offset, place,
                          point.rootOffset, point.share);
+  if (kOwnPoints) x += rotate(place.frame, point.shift);
 #ifdef RINGLET_BLENDS
   vec3 ofOwn = blendedPoint(point.hair.spread, point.hair.offset, place, point.rootOffset, point.share);
   for (uint k = 0; k < 2; ++k) {

@@ -60,7 +60,7 @@ class FollowersObject {
         own.metresPerUnit != groom.metresPerUnit)
       throw py::value_error("this hair is not of level.groom: make its asset of that");
     return hair.ask([&](Simulation& simulation) {
-      return valueOf(Followers::create(asset.device->device, simulation, groom, level.level.hairs));
+      return valueOf(Followers::create(asset.device->device, simulation, groom, level.level.hairs, {}, level.level.own));
     });
   }
 
@@ -103,8 +103,8 @@ void addFollowersClass(py::module_& module) {
            "Moves the strands to where the hair is after its last frame. Waits for all frames.")
       .def(
           "positions", [](FollowersObject& self) { return arrayOf(self.positions()); },
-          "(points, 3) float32 [m], seen from the head: strand after strand of the whole groom, each with as "
-          "many points as the strand it follows, as of the last follow(), which comes first.")
+          "(points, 3) float32 [m], seen from the head: strand after strand of the whole groom, each with "
+          "its own points, as of the last follow(), which comes first.")
       .def(
           "points", [](FollowersObject& self) { return arrayOf(self.points()); },
           "The same in the world, in the groom's unit.")

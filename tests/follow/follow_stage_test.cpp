@@ -82,6 +82,9 @@ Strand posed(const Strand& rest) {
 struct Plan {
   std::vector<GuideRest> guides;
   std::vector<FollowHair> hairs;
+  OwnPoints own{};
+
+  std::size_t pointCount(std::size_t hair) const { return pointCountOf(hairs[hair], guides, own.of(hair)); }
 };
 
 Plan planOf(const Guides& guides, int hairCount, double blend = 0) {
@@ -89,6 +92,32 @@ Plan planOf(const Guides& guides, int hairCount, double blend = 0) {
   for (const Strand& strand : guides.strands) plan.guides.push_back(restOfGuide(strand));
   plan.hairs = *planHairs(plan.guides, {.hairCount = hairCount, .blend = blend});
   return plan;
+}
+
+// Each hair with two points up to more than its guide has, some way beside where the guide alone would have
+// them, some of them in one place.
+OwnPoints anyOwnPoints(const Plan& plan) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<float> shift(-0.004f, 0.004f), step(0, 1);
+  OwnPoints own{.firstPoint = {0}, .points = {}};
+  for (std::size_t h = 0; h < plan.hairs.size(); ++h) {
+    const auto last = static_cast<float>(plan.guides[plan.hairs[h].guide].arcs.size() - 1);
+    const std::size_t count = 2 + 7 * h % 90;
+    std::vector<float> steps{0};
+    for (std::size_t i = 1; i < count; ++i) steps.push_back(steps.back() + std::max(step(random) - 0.1f, 0.f));
+    for (const float at : steps)
+      own.points.push_back({.shift = {shift(random), shift(random), shift(random)},
+                            .along = last * plan.hairs[h].length * at / std::max(steps.back(), 0.1f)});
+    own.firstPoint.push_back(static_cast<std::uint32_t>(own.points.size()));
+  }
+  return own;
+}
+
+// The same hairs as they are, and with points of their own.
+std::vector<Plan> bothOf(const Plan& plan) {
+  std::vector<Plan> both{plan, plan};
+  both[1].own = anyOwnPoints(plan);
+  return both;
 }
 
 struct Met {
@@ -102,10 +131,12 @@ bool isCutAfter(const Plan& plan, const std::vector<std::uint32_t>& cutBeyond, s
                 std::size_t i) {
   std::size_t first = 0;  // of the guide's particles
   for (std::uint32_t g = 0; g < plan.hairs[hair].guide; ++g) first += plan.guides[g].arcs.size();
-  const std::size_t points = plan.guides[plan.hairs[hair].guide].arcs.size();
+  const std::size_t particles = plan.guides[plan.hairs[hair].guide].arcs.size();
   for (const std::uint32_t particle : cutBeyond) {
-    if (particle < first || particle >= first + points) continue;
-    if (reference::pointsBefore(particle + 1 - first, plan.hairs[hair], points) == i + 1) return true;
+    if (particle < first || particle >= first + particles) continue;
+    if (reference::pointsBefore(particle + 1 - first, plan.hairs[hair], plan.pointCount(hair),
+                                plan.own.of(hair)) == i + 1)
+      return true;
   }
   return false;
 }
@@ -153,7 +184,7 @@ std::vector<Vec3d> followIn(FollowStage& stage, gpu::Device& device, const Plan&
 std::vector<Vec3d> followOn(gpu::Device& device, const Plan& plan, const std::vector<Strand>& pose,
                             Quatd head, const Following& following = {}) {
   auto stage =
-      FollowStage::create(device, plan.guides, plan.hairs, following.met.bodies, !following.roots.empty());
+      FollowStage::create(device, plan.guides, plan.hairs, following.met.bodies, !following.roots.empty(), plan.own);
   EXPECT_TRUE(stage) << stage.error().message;
   return followIn(*stage, device, plan, pose, head, following);
 }
@@ -169,7 +200,7 @@ std::vector<double> differences(const Plan& plan, const std::vector<Strand>& pos
     guides.push_back(reference::poseGuide(plan.guides[g], pose[g], head));
   for (std::size_t h = 0; h < plan.hairs.size(); ++h) {
     const auto root = roots.empty() ? std::nullopt : std::optional(roots[h]);
-    for (const Vec3d& expected : reference::followGuides(plan.hairs[h], guides, bodies, met.poses, root))
+    for (const Vec3d& expected : reference::followGuides(plan.hairs[h], guides, bodies, met.poses, root, plan.own.of(h)))
       all.push_back(length(expected - found.at(all.size())));
   }
   EXPECT_EQ(all.size(), found.size());
@@ -217,16 +248,17 @@ using FollowStageTest = GpuTest;
 TEST_F(FollowStageTest, IsTheReference) {
   for (const Guides& guides : allGuides()) {
     SCOPED_TRACE(guides.name);
-    const Plan plan = planOf(guides, 500);
     std::vector<Strand> pose;
     for (const Strand& strand : guides.strands) pose.push_back(posed(strand));
-    for (const bool isPosed : {false, true}) {
-      const auto& strands = isPosed ? pose : guides.strands;
-      const Quatd head = isPosed ? kTurned : Quatd{};
-      const auto found = followOn(gpu(), plan, strands, head);
-      const double largest = largestDifference(plan, strands, head, found);
-      EXPECT_LT(largest, parity::kFollowMetres) << isPosed;
-      if (isPosed) RecordProperty(guides.name + "_m", std::to_string(largest));
+    for (const Plan& plan : bothOf(planOf(guides, 500))) {
+      for (const bool isPosed : {false, true}) {
+        const auto& strands = isPosed ? pose : guides.strands;
+        const Quatd head = isPosed ? kTurned : Quatd{};
+        const auto found = followOn(gpu(), plan, strands, head);
+        const double largest = largestDifference(plan, strands, head, found);
+        EXPECT_LT(largest, parity::kFollowMetres) << isPosed;
+        if (isPosed) RecordProperty(guides.name + "_m", std::to_string(largest));
+      }
     }
   }
 }
@@ -238,10 +270,11 @@ TEST_F(FollowStageTest, StorageAndTexelsGiveTheSameBits) {
   std::vector<Strand> pose;
   for (const Strand& strand : guides.strands) pose.push_back(posed(strand));
   for (const double blend : {0.0, 1.0}) {
-    const Plan plan = planOf(guides, 300, blend);
-    const auto texels = followOn(gpu(), plan, pose, kTurned);
-    EXPECT_EQ(followOn(**few, plan, pose, kTurned), texels) << blend;
-    EXPECT_EQ(followOn(gpu(), plan, pose, kTurned), texels) << "a second time";
+    for (const Plan& plan : bothOf(planOf(guides, 300, blend))) {
+      const auto texels = followOn(gpu(), plan, pose, kTurned);
+      EXPECT_EQ(followOn(**few, plan, pose, kTurned), texels) << blend;
+      EXPECT_EQ(followOn(gpu(), plan, pose, kTurned), texels) << "a second time";
+    }
   }
 }
 
@@ -260,8 +293,10 @@ TEST_F(FollowStageTest, BlendsAreTheReference) {
       const Quatd swing = fromRotationVector(Vec3d{0.2, 0.1, -0.1} * std::sin(2.0 * static_cast<double>(s)));
       for (Vec3d& p : pose[s]) p = pose[s].front() + rotate(swing, p - pose[s].front());
     }
+    for (const Plan& each : bothOf(plan))
+      EXPECT_LT(largestDifference(each, pose, kTurned, followOn(gpu(), each, pose, kTurned)),
+                parity::kFollowMetres);
     const auto found = followOn(gpu(), plan, pose, kTurned);
-    EXPECT_LT(largestDifference(plan, pose, kTurned, found), parity::kFollowMetres);
     const auto unblended = followOn(gpu(), alone, pose, kTurned);
     EXPECT_GT(countOther(found, unblended), found.size() / 4);
     Plan none = plan;  // shares of nothing beside one hair that is blended
@@ -297,9 +332,12 @@ TEST_F(FollowStageTest, PiecesOfCutGuidesAreTheReference) {
       }
       first += count;
     }
-    const auto found = followOn(gpu(), plan, pose, kTurned, {.cutBeyond = cutBeyond});
-    EXPECT_LT(largestDifference(plan, pose, kTurned, found), parity::kFollowMetres);
-    EXPECT_EQ(followOn(**few, plan, pose, kTurned, {.cutBeyond = cutBeyond}), found) << "storage for texels";
+    for (const Plan& each : bothOf(plan)) {
+      const auto found = followOn(gpu(), each, pose, kTurned, {.cutBeyond = cutBeyond});
+      EXPECT_LT(largestDifference(each, pose, kTurned, found), parity::kFollowMetres);
+      EXPECT_EQ(followOn(**few, each, pose, kTurned, {.cutBeyond = cutBeyond}), found)
+          << "storage for texels";
+    }
   }
 }
 
@@ -330,12 +368,14 @@ TEST_F(FollowStageTest, AmongBodiesItIsTheReference) {
   all.push_back(metBy({parity::sampleBodies().front()}, pose, true));
   const auto few = gpu::Device::open("", {.mostTexelRecords = 16});
   ASSERT_TRUE(few) << few.error().message;
-  for (const double blend : {0.0, 0.8}) {
-    const Plan plan = planOf(guides, 300, blend);
+  std::vector<Plan> plans = bothOf(planOf(guides, 300));
+  plans.push_back(planOf(guides, 300, 0.8));
+  for (std::size_t p = 0; p < plans.size(); ++p) {
+    const Plan& plan = plans[p];
     const auto alone = followOn(gpu(), plan, pose, kTurned);
     for (const Met& met : all) {
       SCOPED_TRACE(met.bodies.size() == 1 ? met.bodies.front().name : "all of them");
-      SCOPED_TRACE(blend);
+      SCOPED_TRACE(p);
       const auto found = followOn(gpu(), plan, pose, kTurned, {.met = met});
       EXPECT_GT(countOther(found, alone), found.size() / 100) << "the body must press on hair";
       EXPECT_LT(largestDifference(plan, pose, kTurned, found, met), parity::kFollowMetres);
@@ -473,7 +513,7 @@ struct InputsCase {
   double blend;
   Quatd head;
   std::size_t bodyCount = 0;
-  bool onScalp = false, isCut = false;
+  bool onScalp = false, isCut = false, hasOwn = false;
 };
 
 void runCase(gpu::Device& device, const InputsCase& c) {
@@ -484,6 +524,7 @@ void runCase(gpu::Device& device, const InputsCase& c) {
   std::vector<Strand> pose;
   for (const Strand& strand : guides.strands) pose.push_back(posed(strand));
   Plan plan = planOf(guides, c.hairCount, c.blend);
+  if (c.hasOwn) plan.own = anyOwnPoints(plan);
   std::vector<Body> bodies = parity::sampleBodies();
   bodies.push_back(parity::gridBall(0.1, 0.005, {0.1, 0.2, -0.1}));
   bodies.resize(c.bodyCount);
@@ -516,7 +557,9 @@ TEST_F(FollowStageTest, EachInputIsSetBySomeCase) {
                                 InputsCase{"three guides", all, 300, 1, kTurned},
                                 InputsCase{"three guides among bodies", all, 300, 1, kTurned, 6},
                                 InputsCase{"on a scalp among bodies", curls, 200, 1, {}, 2, true},
-                                InputsCase{"cut among bodies", all, 300, 0, kTurned, 6, false, true}}) {
+                                InputsCase{"cut among bodies", all, 300, 0, kTurned, 6, false, true},
+                                InputsCase{"points of their own", all, 300, 0, kTurned, 6, false, false, true},
+                                InputsCase{"likewise of three guides", all, 300, 1, {}, 0, false, false, true}}) {
       spy.onDone = [&](const SpiedCommands& commands) { inputs.look(spy, commands, c.name); };
       runCase(**opened, c);
     }

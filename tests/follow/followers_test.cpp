@@ -40,7 +40,7 @@ std::vector<Vec3f> shakenWhole(const ComputeDevice& device, const Groom& groom, 
 std::vector<Vec3f> shakenLevel(const ComputeDevice& device, const LevelOfDetail& level, const Motion& shake) {
   auto hair = Simulation::create(device, level.groom, {}, {});
   EXPECT_TRUE(hair);
-  auto followers = Followers::create(device, *hair, level.groom, level.hairs);
+  auto followers = Followers::create(device, *hair, level.groom, level.hairs, {}, level.own);
   EXPECT_TRUE(followers) << followers.error().message;
   for (int frame = 1; frame <= kFrames; ++frame) EXPECT_TRUE(hair->stepFrame(shake.poseAt(frame / 24.0)));
   EXPECT_TRUE(followers->follow());
@@ -98,34 +98,39 @@ TEST_F(FollowersTest, AreWhereTheReferenceSays) {
   ASSERT_TRUE(hair);
   const Body ball{.name = "ball", .radius = 0.06};
   const std::vector<Body> bodies{ball};
-  auto followers = Followers::create(device(), *hair, level->groom, level->hairs, bodies);
+  auto followers = Followers::create(device(), *hair, level->groom, level->hairs, bodies, level->own);
   ASSERT_TRUE(followers) << followers.error().message;
   const HeadPose head{{0.05, 0.02, -0.03}, normalized(Quatd{0.1, 0.3, -0.2, 1})};
   for (int frame = 0; frame < 4; ++frame) ASSERT_TRUE(hair->stepFrame(head));
-  const std::vector<BodyPose> places{{head.position + Vec3d{0, 0.02, 0.09}, {}}};
-  ASSERT_TRUE(followers->follow(places));
-  const std::vector<Vec3f> found = *followers->positions(), guides = *hair->positions();
-  std::vector<BodyPose> seen = places;
-  seen[0].position -= head.position;
-  std::size_t at = 0, pushed = 0;
-  for (const FollowHair& each : level->hairs) {
-    std::vector<Vec3d> pose;
-    for (std::size_t i = level->groom.firstPoint[each.guide]; i < level->groom.firstPoint[each.guide + 1];
-         ++i)
-      pose.push_back(Vec3d(guides[i]));
-    const auto guide =
-        reference::poseGuide(restOfGuide(metresOf(level->groom, each.guide)), pose, head.rotation);
-    const auto free = reference::followGuide(each, guide);
-    const auto kept = reference::followGuide(each, guide, bodies, seen);
-    // The frame's error turns the offset, which here is up to some centimetres.
-    const double bound =
-        parity::kFollowMetres * std::max(1.0, each.spread * double(length(each.offset)) / 0.04);
-    for (std::size_t i = 0; i < kept.size(); ++i) {
-      ASSERT_LT(length(Vec3d(found.at(at++)) - kept[i]), bound);
-      pushed += length(kept[i] - free[i]) > 1e-4;
+  std::size_t pushed = 0;
+  for (const Vec3d way : {Vec3d{0, 0.02, 0.09}, {0.09, 0, 0}, {-0.08, 0.03, 0.02}, {0, -0.02, -0.11}}) {
+    const std::vector<BodyPose> places{{head.position + way, {}}};
+    ASSERT_TRUE(followers->follow(places));
+    const std::vector<Vec3f> found = *followers->positions(), guides = *hair->positions();
+    std::vector<BodyPose> seen = places;
+    seen[0].position -= head.position;
+    std::size_t at = 0;
+    for (std::size_t h = 0; h < level->hairs.size(); ++h) {
+      const FollowHair& each = level->hairs[h];
+      std::vector<Vec3d> pose;
+      for (std::size_t i = level->groom.firstPoint[each.guide]; i < level->groom.firstPoint[each.guide + 1];
+           ++i)
+        pose.push_back(Vec3d(guides[i]));
+      const auto guide =
+          reference::poseGuide(restOfGuide(metresOf(level->groom, each.guide)), pose, head.rotation);
+      const auto own = level->own.of(h);
+      const auto free = reference::followGuide(each, guide, {}, {}, std::nullopt, {}, own);
+      const auto kept = reference::followGuide(each, guide, bodies, seen, std::nullopt, {}, own);
+      // The frame's error turns the offset, which here is up to some centimetres.
+      const double bound =
+          parity::kFollowMetres * std::max(1.0, each.spread * double(length(each.offset)) / 0.04);
+      for (std::size_t i = 0; i < kept.size(); ++i) {
+        ASSERT_LT(length(Vec3d(found.at(at++)) - kept[i]), bound);
+        pushed += length(kept[i] - free[i]) > 1e-4;
+      }
     }
+    EXPECT_EQ(at, found.size());
   }
-  EXPECT_EQ(at, found.size());
   EXPECT_GT(pushed, 5u) << "the ball is where hair is";
 }
 

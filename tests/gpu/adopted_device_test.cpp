@@ -192,8 +192,8 @@ TEST(AdoptedDevice, AHostRecordsHairsThatFollow) {
     auto hair =
         *Simulation::create(*device, level->groom, {}, {}, {.head = headAt(0, 0), .readsBack = false});
     auto expected = *Simulation::create(*own, level->groom, {}, {}, {.head = headAt(0, 0)});
-    auto followers = Followers::create(*device, hair, level->groom, level->hairs, bodies);
-    auto wanted = Followers::create(*own, expected, level->groom, level->hairs, bodies);
+    auto followers = Followers::create(*device, hair, level->groom, level->hairs, bodies, level->own);
+    auto wanted = Followers::create(*own, expected, level->groom, level->hairs, bodies, level->own);
     ASSERT_TRUE(followers) << followers.error().message;
     const FollowedPoints points = followers->points();
     for (int frame = 1; frame <= 5; ++frame) {

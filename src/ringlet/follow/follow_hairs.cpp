@@ -290,8 +290,10 @@ Result<std::vector<FollowHair>> planHairs(std::span<const GuideRest> guides, con
 
 // Point i of a shorter hair lags behind particle i of its guide, but for the root
 // (reference/equations/follow.h).
-std::size_t pointsBefore(std::size_t begin, const FollowHair& hair, std::size_t points) {
+std::size_t pointsBefore(std::size_t begin, const FollowHair& hair, std::size_t points,
+                         std::span<const OwnPoint> own) {
   const auto along = [&](std::size_t i) {
+    if (!own.empty()) return static_cast<double>(own[i].along);
     const double share = static_cast<double>(i) / static_cast<double>(points - 1);
     const double rise = std::min(share / 0.2, 1.0);
     return static_cast<double>(i) *

@@ -14,7 +14,8 @@
 
 namespace ringlet {
 
-/// A hair has as many points as its guide. reference/equations/follow.h says where they are.
+/// A hair has as many points as its guide, or its own (OwnPoints). reference/equations/follow.h says where they
+/// are.
 struct FollowHair {
   std::uint32_t guide = 0;
   Vec3f offset{};    // of its root from the guide's, along GuideRest::frame: normal, binormal, tangent [m]
@@ -30,6 +31,24 @@ struct FollowHair {
     Vec3f offset{};   // of the hair's root from this guide's, along its frame [m]
   };
   std::array<Other, 2> others{};
+};
+
+/// A point of a hair with its own shape at rest.
+struct OwnPoint {
+  Vec3f shift{};    // q, from where the guide alone would have it at rest, along the frame beside it [m]
+  float along = 0;  // its place on the guide [particles]
+};
+
+/// Points of hairs that have their own, each hair at least two, rising along their guides.
+struct OwnPoints {
+  std::vector<std::uint32_t> firstPoint;  // of each hair, and one more; empty: all have their guides' points
+  std::vector<OwnPoint> points;
+
+  bool empty() const { return firstPoint.empty(); }
+  std::span<const OwnPoint> of(std::size_t hair) const {
+    if (empty()) return {};
+    return std::span(points).subspan(firstPoint[hair], firstPoint[hair + 1] - firstPoint[hair]);
+  }
 };
 
 /// How hairs of one guide differ. `blend` is of guides side by side: less of those that part at rest by 0.4
@@ -67,8 +86,15 @@ Result<std::vector<FollowHair>> planHairs(std::span<const GuideRest> guides, con
                                           const FollowOptions& options, const FollowMaps& maps = {},
                                           std::vector<std::uint32_t>* rootOf = nullptr);
 
-/// How many points of a hair, of as many as its guide has, are before the piece of the guide that begins with
-/// particle `begin`.
-std::size_t pointsBefore(std::size_t begin, const FollowHair& hair, std::size_t points);
+/// How many points a hair has: `own`, or as many as its guide.
+inline std::size_t pointCountOf(const FollowHair& hair, std::span<const GuideRest> guides,
+                                std::span<const OwnPoint> own) {
+  return own.empty() ? guides[hair.guide].arcs.size() : own.size();
+}
+
+/// How many points of a hair, `own` or of as many as its guide has, are before the piece of the guide that
+/// begins with particle `begin`.
+std::size_t pointsBefore(std::size_t begin, const FollowHair& hair, std::size_t points,
+                         std::span<const OwnPoint> own = {});
 
 }  // namespace ringlet

@@ -52,7 +52,7 @@ std::vector<Compiled> compiled(bool hasBodies, bool isBlended) {
 // Which of `others_` holds which binding.
 constexpr std::uint32_t kOthers[] = {layout::kBindCoreRows,     layout::kBindCoreWeights, layout::kBindCores,
                                      layout::kBindFollowGuides, layout::kBindCoreFrames,  layout::kBindCurls,
-                                     layout::kBindFollowHairs};
+                                     layout::kBindOwnPoints,    layout::kBindFollowHairs};
 
 std::vector<std::vector<CoreWeights>> weightsOf(std::span<const GuideRest> guides) {
   std::vector<std::vector<CoreWeights>> weights(guides.size());
@@ -131,14 +131,22 @@ Status FollowStage::makeGuides(gpu::Device& device, std::span<const GuideRest> g
   return {};
 }
 
-Status FollowStage::makeHairs(gpu::Device& device, std::span<const GuideRest> guides,
-                              std::span<const FollowHair> hairs) {
+Status FollowStage::makeOwnPoints(gpu::Device& device, const OwnPoints& own) {
+  std::vector<layout::vec4> records;
+  for (const OwnPoint& point : own.points)
+    records.push_back(packed(Vec3d(point.shift), static_cast<double>(point.along)));
+  if (records.empty()) records.push_back({});
+  auto filled = createFilled(device, records, "shapes of hairs");
+  if (!filled) return filled.error();
+  others_.push_back(std::move(*filled));
+  return {};
+}
+
+Status FollowStage::makeHairs(gpu::Device& device, std::span<const FollowHair> hairs) {
   std::vector<layout::FollowHair> records;
-  firstPoint_ = {0};
-  for (const FollowHair& hair : hairs) {
-    records.push_back(recordOf(hair, firstPoint_.back(), {}));
-    firstPoint_.push_back(firstPoint_.back() + static_cast<std::uint32_t>(guides[hair.guide].arcs.size()));
-  }
+  for (std::size_t h = 0; h < hairs.size(); ++h) records.push_back(recordOf(hairs[h], firstPoint_[h], {}));
+  records.push_back({});
+  records.back().firstPoint = firstPoint_.back();
   auto filled = createFilled(device, records, "hairs");
   if (!filled) return filled.error();
   others_.push_back(std::move(*filled));
@@ -165,7 +173,8 @@ Status FollowStage::makeInside(gpu::Device& device) {
   return {};
 }
 
-Status FollowStage::makeKernels(gpu::Device& device, bool isOnScalp, bool areCut) {
+Status FollowStage::makeKernels(gpu::Device& device, bool isOnScalp, bool areCut,
+                                bool haveOwn) {
   gpu::BufferTable table = bodies_.bufferTable();
   const auto bind = [&](std::uint32_t number, const gpu::Buffer& buffer) {
     table.emplace(number, buffer);
@@ -190,7 +199,8 @@ Status FollowStage::makeKernels(gpu::Device& device, bool isOnScalp, bool areCut
     description.constants = {{layout::kSpecGroupSize, device.pointGroupSize()},
                              {layout::kSpecTexels, texels ? 1u : 0u},
                              {layout::kSpecOnScalp, isOnScalp ? 1u : 0u},
-                             {layout::kSpecCutGuides, areCut ? 1u : 0u}};
+                             {layout::kSpecCutGuides, areCut ? 1u : 0u},
+                             {layout::kSpecOwnPoints, haveOwn ? 1u : 0u}};
     description.groupSize = device.pointGroupSize();
     auto kernel = gpu::BoundKernel::create(device, description, table);
     if (!kernel) return kernel.error();
@@ -201,14 +211,15 @@ Status FollowStage::makeKernels(gpu::Device& device, bool isOnScalp, bool areCut
 
 Result<FollowStage> FollowStage::create(gpu::Device& device, std::span<const GuideRest> guides,
                                         std::span<const FollowHair> hairs, std::span<const Body> bodies,
-                                        bool isOnScalp) {
+                                        bool isOnScalp, const OwnPoints& own) {
   std::uint64_t particles = 0, points = 0;
+  for (const GuideRest& guide : guides) particles += guide.arcs.size();
   std::size_t stride = 0;
-  for (const GuideRest& guide : guides) {
-    particles += guide.arcs.size();
-    stride = std::max(stride, guide.arcs.size());
+  for (std::size_t h = 0; h < hairs.size(); ++h) {
+    const std::size_t count = pointCountOf(hairs[h], guides, own.of(h));
+    stride = std::max(stride, count);
+    points += count;
   }
-  for (const FollowHair& hair : hairs) points += guides[hair.guide].arcs.size();
   const std::uint64_t most =
       std::min<std::uint64_t>(device.properties().maxStorageBufferRange / 16,
                               std::uint64_t{device.properties().maxGroupCount} * device.pointGroupSize());
@@ -232,9 +243,12 @@ Result<FollowStage> FollowStage::create(gpu::Device& device, std::span<const Gui
   self.hairCount_ = static_cast<std::uint32_t>(hairs.size());
   self.pointCount_ = static_cast<std::uint32_t>(points);
   self.stride_ = static_cast<std::uint32_t>(stride);
+  for (std::size_t h = 0; h < hairs.size(); ++h)
+    self.firstPoint_.push_back(self.firstPoint_.back() +
+                               static_cast<std::uint32_t>(pointCountOf(hairs[h], guides, own.of(h))));
   if (Status made = self.makeGuides(device, guides); !made) return made.error();
-
-  if (Status made = self.makeHairs(device, guides, hairs); !made) return made.error();
+  if (Status made = self.makeOwnPoints(device, own); !made) return made.error();
+  if (Status made = self.makeHairs(device, hairs); !made) return made.error();
   if (isOnScalp) {
     self.onScalp_.assign(hairs.begin(), hairs.end());
     std::uint32_t first = 0;
@@ -244,7 +258,7 @@ Result<FollowStage> FollowStage::create(gpu::Device& device, std::span<const Gui
   const bool areCut =
       std::ranges::any_of(guides, [](const GuideRest& guide) { return !guide.pieces.empty(); });
   if (Status made = self.makeInside(device); !made) return made.error();
-  if (Status made = self.makeKernels(device, isOnScalp, areCut); !made) return made.error();
+  if (Status made = self.makeKernels(device, isOnScalp, areCut, !own.empty()); !made) return made.error();
   return self;
 }
 

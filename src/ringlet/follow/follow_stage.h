@@ -19,13 +19,13 @@ namespace ringlet {
 
 class FollowStage {
  public:
-  /// `hairs`: of planHairs, of these guides. `bodies`: that hairs stay out of where their guides do; they
+  /// `hairs`: of these guides. `bodies`: that hairs stay out of where their guides do; they
   /// pass checkBody. Errors: the device lacks memory, or sees too little of a buffer at once; the message
   /// says how many hairs it has room for. Cost: the guides' cores, on all processors.
-  /// `isOnScalp`: setPose says where the hairs' roots are.
+  /// `isOnScalp`: setPose says where the hairs' roots are. `own`: of hairs that have points of their own.
   static Result<FollowStage> create(gpu::Device& device, std::span<const GuideRest> guides,
                                     std::span<const FollowHair> hairs, std::span<const Body> bodies = {},
-                                    bool isOnScalp = false);
+                                    bool isOnScalp = false, const OwnPoints& own = {});
   FollowStage(FollowStage&&) = default;
 
   /// The guides' particles [m], one after the other in the guides' order. The next frame follows them. No
@@ -62,10 +62,11 @@ class FollowStage {
  private:
   FollowStage(gpu::Buffer positions, gpu::Buffer points, PosedBodies bodies)
       : positions_(std::move(positions)), points_(std::move(points)), bodies_(std::move(bodies)) {}
-  Status makeHairs(gpu::Device& device, std::span<const GuideRest> guides, std::span<const FollowHair> hairs);
+  Status makeHairs(gpu::Device& device, std::span<const FollowHair> hairs);
+  Status makeOwnPoints(gpu::Device& device, const OwnPoints& own);
   Status makeGuides(gpu::Device& device, std::span<const GuideRest> guides);
   Status makeInside(gpu::Device& device);
-  Status makeKernels(gpu::Device& device, bool isOnScalp, bool areCut);
+  Status makeKernels(gpu::Device& device, bool isOnScalp, bool areCut, bool haveOwn);
 
   // Points of hairs inside bodies: how many there are, none, and which.
   struct Inside {
@@ -80,7 +81,7 @@ class FollowStage {
   std::vector<gpu::BoundKernel> kernels_;  // in their order; that of bodies only where there are any
   std::vector<FollowHair> onScalp_;        // the hairs, where a scalp carries their roots; else none
   std::vector<std::uint32_t> guideRoots_;  // the particle at the root of each guide
-  std::vector<std::uint32_t> firstPoint_;
+  std::vector<std::uint32_t> firstPoint_{0};
   std::uint32_t guideCount_ = 0, particleCount_ = 0, hairCount_ = 0, pointCount_ = 0, stride_ = 0;
 };
 

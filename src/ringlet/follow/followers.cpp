@@ -58,7 +58,8 @@ Followers& Followers::operator=(Followers&&) noexcept = default;
 Followers::~Followers() = default;
 
 Result<Followers> Followers::create(const ComputeDevice& device, const Simulation& guides, const Groom& groom,
-                                    std::span<const FollowHair> hairs, std::span<const Body> bodies) {
+                                    std::span<const FollowHair> hairs, std::span<const Body> bodies,
+                                    const OwnPoints& own) {
   std::vector<Vec3d> rest;
   for (const Vec3f& p : groom.points) rest.push_back(Vec3d(p) * groom.metresPerUnit);
   std::vector<GuideRest> guideRests;
@@ -74,7 +75,7 @@ Result<Followers> Followers::create(const ComputeDevice& device, const Simulatio
     for (const FollowHair::Other& other : hair.others)
       RINGLET_ASSERT(isThere(other.guide), "a hair follows a strand that the groom does not have");
   }
-  auto stage = FollowStage::create(device.gpu(), guideRests, hairs, bodies);
+  auto stage = FollowStage::create(device.gpu(), guideRests, hairs, bodies, false, own);
   if (!stage) return stage.error();
   auto recorder = gpu::Recorder::create(device.gpu(), "hairs that follow strands");
   if (!recorder) return recorder.error();

@@ -9,47 +9,25 @@
 #include <span>
 #include <utility>
 
+#include "ringlet/base/in_parallel.h"
 #include "ringlet/follow/guide_rest.h"
-#include "ringlet/follow/near_guides.h"
-#include "ringlet/groom/sample_elimination.h"
+#include "ringlet/follow/own_points.h"
+#include "ringlet/follow/pick_guides.h"
+#include "ringlet/follow/rest_shape.h"
 
 namespace ringlet {
 namespace {
 
 constexpr std::size_t kCandidates = 4;  // guides that a strand is compared with
+constexpr std::size_t kFitPart = 64;       // strands that a thread takes at once
 constexpr double kFitFrom = 0.4;        // from here to the tip a hair is all in its guide's frame (follow.h)
 constexpr double kLeastLength = 0.05, kMostFitRadius = 4, kMostSpread = 4;  // of a fit
 constexpr double kLeastPart = 1e-6;  // of squares: less is rounding, and fits nothing
-
-// A strand at rest [m], and what a hair takes from it: its core and, along the frames on the core, its curl.
-struct Shape {
-  std::vector<Vec3d> points, core, curl;
-  std::vector<MeasuringFrame> frames;
-  double coreLength = 0;
-};
-
-Vec3d inFrame(const MeasuringFrame& frame, Vec3d v) {
-  return {dot(v, frame.normal), dot(v, frame.binormal), dot(v, frame.tangent)};
-}
-Vec3d along(const MeasuringFrame& frame, Vec3d v) {
-  return frame.normal * v.x + frame.binormal * v.y + frame.tangent * v.z;
-}
 
 std::vector<Vec3d> metresOf(const Groom& groom, std::size_t strand) {
   std::vector<Vec3d> points;
   for (const Vec3f& p : groom.strand(strand)) points.push_back(Vec3d(p) * groom.metresPerUnit);
   return points;
-}
-
-Shape shapeOf(std::vector<Vec3d> points, const GuideRest& rest) {
-  Shape shape{.points = std::move(points), .core = {}, .curl = {}, .frames = {}};
-  shape.core = smoothCore(shape.points, rest.arcs, rest.window);
-  shape.frames = framesAlong(shape.core, rest.frame);
-  for (std::size_t i = 1; i < shape.core.size(); ++i)
-    shape.coreLength += length(shape.core[i] - shape.core[i - 1]);
-  for (std::size_t i = 0; i < shape.points.size(); ++i)
-    shape.curl.push_back(inFrame(shape.frames[i], shape.points[i] - shape.core[i]));
-  return shape;
 }
 
 Status checkStrands(const Groom& groom) {
@@ -62,20 +40,6 @@ Status checkStrands(const Groom& groom) {
         s + 1)};
   }
   return {};
-}
-
-// The area that so many roots are spread over, as if they were as far apart as in a square grid [m^2]; any
-// area where all are in one place.
-double areaUnder(std::span<const GuideRest> strands, const NearGuides& near) {
-  double sum = 0;
-  for (const GuideRest& strand : strands) {
-    for (const NearGuides::Near& other : near.at(strand.root, kCandidates)) {
-      if (other.distance == 0) continue;  // itself, or another in the same place
-      sum += other.distance * other.distance;
-      break;
-    }
-  }
-  return sum > 0 ? sum : 1;
 }
 
 // Of a curve with a point a particle, where share is 0 at the root and 1 at the tip.
@@ -99,7 +63,7 @@ struct FitSample {
   Vec3d shift, curl, turned, rise, wanted;  // F d, the three after it without their factors, point - core
 };
 
-std::vector<FitSample> samplesOf(const Shape& guide, const Shape& strand, const FollowHair& hair) {
+std::vector<FitSample> samplesOf(const RestShape& guide, const RestShape& strand, const FollowHair& hair) {
   std::vector<FitSample> samples;
   const std::size_t last = guide.points.size() - 1;
   for (std::size_t i = 0; i <= last; ++i) {
@@ -108,8 +72,8 @@ std::vector<FitSample> samplesOf(const Shape& guide, const Shape& strand, const 
     const double there = hair.length * share;
     const MeasuringFrame& frame = guide.frames[static_cast<std::size_t>(std::lround(there * double(last)))];
     const Vec3d z = at(guide.curl, there);
-    samples.push_back({along(frame, Vec3d(hair.offset)), along(frame, {z.x, z.y, 0}),
-                       along(frame, {-z.y, z.x, 0}), along(frame, {0, 0, z.z}),
+    samples.push_back({outOfFrame(frame, Vec3d(hair.offset)), outOfFrame(frame, {z.x, z.y, 0}),
+                       outOfFrame(frame, {-z.y, z.x, 0}), outOfFrame(frame, {0, 0, z.z}),
                        at(strand.points, share) - at(guide.core, there)});
   }
   return samples;
@@ -117,7 +81,7 @@ std::vector<FitSample> samplesOf(const Shape& guide, const Shape& strand, const 
 
 // How a strand follows so much of a guide: least squares in spread, a and b, the curl's rise along the core
 // left out. Curl and turned are at right angles and of one length.
-Fit fitTo(const Shape& guide, const Shape& strand, double shareOfGuide) {
+Fit fitTo(const RestShape& guide, const RestShape& strand, double shareOfGuide) {
   Fit fit;
   FollowHair& hair = fit.hair;
   hair.offset = Vec3f(inFrame(guide.frames.front(), strand.points.front() - guide.points.front()));
@@ -155,11 +119,11 @@ Fit fitTo(const Shape& guide, const Shape& strand, double shareOfGuide) {
 }
 
 // With the cores' lengths, which are uncertain by some of a turn at the tip.
-Fit fitTo(const Shape& guide, const Shape& strand) {
+Fit fitTo(const RestShape& guide, const RestShape& strand) {
   return fitTo(guide, strand, strand.coreLength / guide.coreLength);
 }
 // The same with the length that fits best.
-Fit refined(Fit best, const Shape& guide, const Shape& strand) {
+Fit refined(Fit best, const RestShape& guide, const RestShape& strand) {
   const std::uint32_t number = best.hair.guide;
   for (const double step : {0.02, 0.005}) {
     const double middle = best.hair.length;
@@ -172,50 +136,74 @@ Fit refined(Fit best, const Shape& guide, const Shape& strand) {
   return best;
 }
 
+// The guide that fits a strand best among those it is most like.
+FollowHair fittedHair(const StrandTraits& traits, std::span<const RestShape> shapes,
+                      std::span<const std::uint32_t> guides, std::size_t strand) {
+  Fit best{{}, std::numeric_limits<double>::infinity()};
+  for (const std::uint32_t g : traits.nearest(strand, guides, kCandidates)) {
+    Fit fit = fitTo(shapes[guides[g]], shapes[strand]);
+    fit.hair.guide = g;
+    if (fit.distance2 < best.distance2) best = fit;
+  }
+  return refined(best, shapes[guides[best.hair.guide]], shapes[strand]).hair;
+}
+
+std::vector<RestShape> shapesOf(const Groom& groom) {
+  std::vector<RestShape> shapes(groom.strandCount());
+  eachInParallel(coreCount(), shapes.size(), kFitPart, [&](std::size_t s) {
+    std::vector<Vec3d> points = metresOf(groom, s);
+    const GuideRest rest = restOfGuide(points);
+    shapes[s] = restShapeOf(std::move(points), rest);
+  });
+  return shapes;
+}
+
+LevelOfDetail levelOf(const Groom& groom, std::span<const RestShape> shapes, const StrandTraits& traits,
+                      std::vector<std::uint32_t> guides) {
+  LevelOfDetail level;
+  level.groom.metresPerUnit = groom.metresPerUnit;
+  std::vector<RestShape> ofGuides;
+  for (const std::uint32_t s : guides) {
+    level.groom.addStrand(groom.strand(s));
+    ofGuides.push_back(shapes[s]);
+  }
+  level.hairs.resize(shapes.size());
+  std::vector<std::vector<OwnPoint>> own(shapes.size());
+  eachInParallel(coreCount(), shapes.size(), kFitPart, [&](std::size_t s) {
+    const auto guide = std::ranges::lower_bound(guides, static_cast<std::uint32_t>(s));
+    if (guide != guides.end() && *guide == s)
+      level.hairs[s].guide = static_cast<std::uint32_t>(guide - guides.begin());
+    else
+      level.hairs[s] = fittedHair(traits, shapes, guides, s);
+    own[s] = ownPointsOf(level.hairs[s], shapes[s].points, ofGuides);
+  });
+  level.own.firstPoint = groom.firstPoint;
+  for (const auto& each : own) level.own.points.insert(level.own.points.end(), each.begin(), each.end());
+  level.guides = std::move(guides);
+  return level;
+}
+
 }  // namespace
 
 Result<LevelOfDetail> levelOfDetail(const Groom& groom, double share) {
   if (!(share > 0 && share <= 1))
     return Error{fmt::format(
         "a share of {} of the strands cannot be simulated; it must be above 0 and at most 1", share)};
+  const auto wanted = std::lround(share * static_cast<double>(groom.strandCount()));
+  return levelOfDetailOfCount(groom, static_cast<std::size_t>(std::max(1l, wanted)));
+}
+
+Result<LevelOfDetail> levelOfDetailOfCount(const Groom& groom, std::size_t count) {
   if (Status checked = checkStrands(groom); !checked) return checked.error();
-  const std::size_t count = groom.strandCount();
-  std::vector<Shape> shapes;
-  std::vector<GuideRest> rests;
-  std::vector<Vec3d> roots;
-  for (std::size_t s = 0; s < count; ++s) {
-    std::vector<Vec3d> points = metresOf(groom, s);
-    rests.push_back(restOfGuide(points));
-    roots.push_back(points.front());
-    shapes.push_back(shapeOf(std::move(points), rests.back()));
-  }
-  LevelOfDetail level;
-  const auto wanted = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(share * double(count))));
-  level.guides = eliminateSamples(roots, wanted, areaUnder(rests, NearGuides(rests)));
-  std::vector<GuideRest> guideRests;
-  std::vector<std::int64_t> guideOf(count, -1);
-  for (const std::uint32_t s : level.guides) {
-    guideOf[s] = static_cast<std::int64_t>(guideRests.size());
-    guideRests.push_back(rests[s]);
-    level.groom.addStrand(groom.strand(s));
-  }
-  level.groom.metresPerUnit = groom.metresPerUnit;
-  const NearGuides near(guideRests);
-  for (std::size_t s = 0; s < count; ++s) {
-    Fit best{{}, std::numeric_limits<double>::infinity()};
-    if (guideOf[s] >= 0) {
-      best.hair.guide = static_cast<std::uint32_t>(guideOf[s]);
-    } else {
-      for (const auto& [distance, g] : near.at(roots[s], kCandidates)) {
-        Fit fit = fitTo(shapes[level.guides[g]], shapes[s]);
-        fit.hair.guide = g;
-        if (fit.distance2 < best.distance2) best = fit;
-      }
-      best = refined(best, shapes[level.guides[best.hair.guide]], shapes[s]);
-    }
-    level.hairs.push_back(best.hair);
-  }
-  return level;
+  const std::vector<RestShape> shapes = shapesOf(groom);
+  const StrandTraits traits(shapes);
+  return levelOf(groom, shapes, traits, pickGuides(traits, count));
+}
+
+Result<LevelOfDetail> levelOfDetailOfGuides(const Groom& groom, std::vector<std::uint32_t> guides) {
+  if (Status checked = checkStrands(groom); !checked) return checked.error();
+  const std::vector<RestShape> shapes = shapesOf(groom);
+  return levelOf(groom, shapes, StrandTraits(shapes), std::move(guides));
 }
 
 }  // namespace ringlet

@@ -15,14 +15,20 @@ struct LevelOfDetail {
   Groom groom;                        // those strands, in this order: what HairAsset::build is given
   std::vector<FollowHair> hairs;  // one a strand of the whole groom, in its order; FollowHair::guide is an
                                   // index into `guides`. The hair of a guide lies on the guide
+  OwnPoints own;                  // of each: at rest all are where the groom has them
 };
 
-/// Chooses `share` of the strands, in (0, 1], at least one, with roots as evenly spread as those of the groom
-/// allow (eliminateSamples). Every other strand follows the one of the four guides with the nearest roots
-/// that looks most like it: turned, scaled and shortened as fits its rest shape best, in the least squares of
-/// its outer three fifths. A hair has as many points as its guide. The same groom gives the same choice.
-/// Errors: a share outside its range; a strand without length. Cost: n log n in strands, and the cores of all
-/// strands.
+/// Chooses `count` of the strands, or all (pickGuides). Every other strand follows the one of the four guides
+/// most like it that fits it best: turned, scaled and shortened in the least squares of its outer three
+/// fifths; what is left of its own shape goes along (OwnPoint). The same groom gives the same choice. Errors:
+/// a strand without length. Cost: n log n in strands and n times `count`, and the cores of all strands; on
+/// all processors.
+Result<LevelOfDetail> levelOfDetailOfCount(const Groom& groom, std::size_t count);
+
+/// The same of a share of the strands, in (0, 1], at least one. Errors: also a share outside its range.
 Result<LevelOfDetail> levelOfDetail(const Groom& groom, double share);
+
+/// The same with these guides: strands of the groom, rising, at least one.
+Result<LevelOfDetail> levelOfDetailOfGuides(const Groom& groom, std::vector<std::uint32_t> guides);
 
 }  // namespace ringlet

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "ringlet/groom/coarse_curls.h"
 #include "ringlet/groom/generate_check.h"
 #include "ringlet/groom/vary_curl.h"
 
@@ -30,7 +31,6 @@ void addCurl(Groom& groom, Vec3d top, const CurlParameters& curl) {
 }  // namespace
 
 std::optional<std::string> coarseCurlWarning(const CurlParameters& parameters) {
-  constexpr double kParticlesPerTurn = 4;
   const double wanted = std::ceil(kParticlesPerTurn * parameters.turns);
   if (parameters.particleCount >= wanted) return std::nullopt;
   return fmt::format(
