@@ -34,7 +34,7 @@ Result<HairPane> HairPane::create(gpu::Device& device, const Groom& groom, const
     self.strands_ = std::make_unique<StrandPoints>(std::move(*strands));
   } else {
     auto follow = FollowStage::create(device, look.follow->guides(), look.follow->hairs(), look.bodies,
-                                      look.follow->isOnScalp());
+                                      look.follow->isOnScalp(), look.follow->own());
     if (!follow) return follow.error();
     self.follow_ = std::make_unique<FollowStage>(std::move(*follow));
   }

@@ -14,6 +14,7 @@ inline std::vector<PathCase> pathCases() {
   const std::string groom = "[groom]\nfile = 'groom.obj'\n";
   return {
       {"groom.file", "[groom]\nfile = 'PATH'\n"},
+      {"groom.guides_file", groom + "guides_file = 'PATH'\n"},
       {"groom.scalp", "[groom]\ngenerate = 'head'\nscalp = 'PATH'\n"},
       {"motion.file", groom + "[motion]\nfile = 'PATH'\n"},
       {"scalp.file", groom + "[scalp]\nfile = 'PATH'\n"},

@@ -118,22 +118,32 @@ Result<std::optional<LoadedScene>> sceneOf(const TypedConvert& typed) {
 
 // Hair that follows the strands of IN, where it is asked for.
 Result<std::optional<FullHair>> fullHairOf(const TypedConvert& typed, const Groom& rest, double metresPerUnit,
-                                           const CutList& cuts = {}, const LoadedScene* scene = nullptr) {
+                                           const CutList& cuts = {}) {
   if (!typed.hairs) return std::optional<FullHair>();
   const HairLook look = hairLookOf(typed.keys);
-  const auto ground = scene ? hairGroundOf(*scene, look) : hairGroundOf(look, metresPerUnit);
+  const auto ground = hairGroundOf(look, metresPerUnit);
   if (!ground) return ground.error();
   auto hair = FullHair::make(rest, metresPerUnit, look.of({.hairCount = *typed.hairs}), followByReference(),
-                             scene ? scene->bodies : std::vector<Body>(), *ground, cuts);
+                             {}, *ground, cuts);
   if (!hair) return hair.error();
   return std::optional(std::move(*hair));
 }
 
-// The same, of an animation.
-Result<std::optional<FullHair>> fullHairOf(const TypedConvert& typed, double metresPerUnit,
+// The same, of an animation; or the groom's own hairs, where IN has only the guides of the scene.
+Result<std::optional<FullHair>> fullHairOf(const TypedConvert& typed, const AnimationReader& source,
                                            const CutList& cuts, const std::optional<LoadedScene>& scene) {
-  if (!typed.hairs) return std::optional<FullHair>();
-  if (scene) return fullHairOf(typed, scene->groom, metresPerUnit, cuts, &*scene);
+  const bool isOfGuides = scene && scene->level && source.groom().firstPoint == scene->groom.firstPoint;
+  if (scene && !typed.hairs && !isOfGuides)
+    return Error{fmt::format(
+        "the scene {} is needed for --hairs, or where IN has the guides of its groom; IN has {} strands, its "
+        "{} {}",
+        typed.scene.string(), source.groom().strandCount(), scene->level ? "guides are" : "groom has",
+        scene->groom.strandCount())};
+  if (!typed.hairs && !isOfGuides) return std::optional<FullHair>();
+  if (scene)
+    return FullHair::ofScene(*scene, typed.hairs.value_or(0), hairLookOf(typed.keys), followByReference(),
+                             cuts);
+  const double metresPerUnit = source.header().metresPerUnit;
   const auto rest = readGroom(typed.groom, readingOf(typed.keys));
   if (!rest) return rest.error();
   return fullHairOf(typed, rest->groom, metresPerUnit, cuts);
@@ -154,7 +164,6 @@ void checkOptions(const TypedConvert& typed) {
   if (!typed.hairs && !typed.keys.optionOf("output").empty())
     throw CLI::ValidationError("--hairs", "only such hairs have frizz, clumps and blends; say how many");
   if (!typed.hairs && !typed.groom.empty()) throw CLI::ValidationError("--groom", "only --hairs needs it");
-  if (!typed.hairs && !typed.scene.empty()) throw CLI::ValidationError("--scene", "only --hairs needs it");
   if (typed.scene.empty() && !typed.keys.sets.empty())
     throw CLI::ValidationError("--set", "is of a scene, and none is named here");
   if (typed.frame && !typed.frames.empty())
@@ -276,7 +285,7 @@ Status runConvert(const TypedConvert& typed) {
   if (!scene) return scene.error();
   const auto cuts = CutList::beside(typed.input);
   if (!cuts) return cuts.error();
-  auto hair = fullHairOf(typed, source->header().metresPerUnit, *cuts, *scene);
+  auto hair = fullHairOf(typed, *source, *cuts, *scene);
   if (!hair) return hair.error();
   const auto outcome = convert(
       *source,

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -27,6 +28,9 @@ class ReferenceMover : public FollowMover {
         })) {
     for (const FollowHair& each : plan.hairs()) ++firstHair_[each.guide + 1];
     for (std::size_t s = 0; s + 1 < firstHair_.size(); ++s) firstHair_[s + 1] += firstHair_[s];
+    order_.resize(plan.hairs().size());
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    std::ranges::stable_sort(order_, {}, [&](std::size_t h) { return plan.hairs()[h].guide; });
   }
 
   Status move(const StrandsPose& pose, std::span<Vec3f> hairs) override {
@@ -38,10 +42,11 @@ class ReferenceMover : public FollowMover {
       poses[s] = reference::poseGuide(plan_.guides()[s], plan_.strandOf(pose.points, s), head);
     };
     const auto moveHairs = [&](std::size_t s) {
-      for (std::size_t h = firstHair_[s]; h < firstHair_[s + 1]; ++h) {
+      for (std::size_t k = firstHair_[s]; k < firstHair_[s + 1]; ++k) {
+        const std::size_t h = order_[k];
         const auto root = pose.roots.empty() ? std::nullopt : std::optional(pose.roots[h]);
         std::uint32_t at = plan_.firstPoint()[h];
-        for (const Vec3d& p : reference::followGuides(plan_.hairs()[h], poses, met, pose.bodies, root))
+        for (const Vec3d& p : reference::followGuides(plan_.hairs()[h], poses, met, pose.bodies, root, plan_.own().of(h)))
           hairs[at++] = Vec3f(p / plan_.metresPerUnit());
       }
     };
@@ -69,7 +74,8 @@ class ReferenceMover : public FollowMover {
 
   const FollowPlan& plan_;
   std::vector<Body> bodies_;
-  std::vector<std::size_t> firstHair_;  // index of each strand's first hair, and the end
+  std::vector<std::size_t> order_;      // hairs by strand
+  std::vector<std::size_t> firstHair_;  // of each strand among these, and the end
   bool isBlended_;                      // hairs follow several strands
 };
 

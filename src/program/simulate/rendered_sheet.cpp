@@ -34,7 +34,7 @@ Status writeRenderedSheet(const LoadedScene& scene, const SimulateOptions& optio
   RenderPlan plan;
   plan.target.path = options.folder / "sheet.png";
   plan.isSheet = true;
-  plan.rest = options.hairs > 0 ? nullptr : &scene.groom;
+  plan.rest = options.hairs > 0 || scene.level ? nullptr : &scene.groom;
   plan.scene = &scene;
   plan.size = {kPanelWidth, kPanelHeight, 2};
   const auto drawn =

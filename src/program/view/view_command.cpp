@@ -93,17 +93,15 @@ void addSolids(const LoadedScene& scene, Vec3d up, view::ViewPlan& plan) {
 }
 
 Status addHairs(const LoadedScene& scene, int hairs, const HairLook& look, view::ViewPlan& plan) {
-  const double count = hairs > 0 ? hairs : static_cast<double>(scene.groom.strandCount());
-  plan.look.width = std::min(widthOfHairs(count), view::kMostStrandWidth);
-  if (hairs == 0) return {};
-  const auto ground = hairGroundOf(scene, look);
-  if (!ground) return ground.error();
   const double lastCut = scene.cuts.empty() ? 0 : scene.cuts.back().seconds;
   const int frames = static_cast<int>(std::ceil(lastCut * scene.settings.framesPerSecond)) + 1;
-  auto follow = FollowPlan::make(scene.groom, scene.groom.metresPerUnit, look.of({.hairCount = hairs}),
-                                 *ground, CutList(SceneFrames(scene), frames));
+  auto follow = FollowPlan::ofScene(scene, hairs, look, CutList(SceneFrames(scene), frames));
   if (!follow) return follow.error();
-  plan.look.follow = std::make_shared<const FollowPlan>(std::move(*follow));
+  const auto count =
+      static_cast<double>(*follow ? (*follow)->hairs().size() : scene.groom.strandCount());
+  plan.look.width = std::min(widthOfHairs(count), view::kMostStrandWidth);
+  if (!*follow) return {};
+  plan.look.follow = std::make_shared<const FollowPlan>(std::move(**follow));
   plan.look.bodies = scene.bodies;
   return {};
 }
@@ -202,7 +200,8 @@ void addViewCommand(CLI::App& app, int& exitCode) {
   command->add_option("IN", typed->input, "A scene (.toml) or a groom")->required()->type_name("PATH");
   addSetOption(*command, typed->keys);
   addOptionsOfKeys(*command, typed->keys,
-                   {"groom.unit", "groom.up", "groom.root_end", "groom.points_per_strand"});
+                   {"groom.unit", "groom.up", "groom.root_end", "groom.points_per_strand", "groom.guides", "groom.guides_file",
+                    "groom.guides_primvar"});
   addConfinedOption(*command, typed->reach);
   addHairLookOptions(*command, typed->keys);
   command->add_option("--hairs", typed->hairs, "Hairs that follow the strands; 0: the strands themselves")

@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "ringlet/base/assert.h"
 #include "ringlet/base/in_parallel.h"
 #include "ringlet/follow/guide_rest.h"
 #include "ringlet/follow/own_points.h"
@@ -184,6 +185,14 @@ LevelOfDetail levelOf(const Groom& groom, std::span<const RestShape> shapes, con
 }
 
 }  // namespace
+
+void LevelOfDetail::leaveOutGuides() {
+  RINGLET_ASSERT(!guides.empty() && guides.front() + guides.size() == hairs.size(), "guides are not the last");
+  hairs.resize(guides.front());
+  own.firstPoint.resize(guides.front() + 1);
+  own.points.resize(own.firstPoint.back());
+  guides.clear();
+}
 
 Result<LevelOfDetail> levelOfDetail(const Groom& groom, double share) {
   if (!(share > 0 && share <= 1))

@@ -11,11 +11,15 @@
 namespace ringlet {
 
 struct LevelOfDetail {
-  std::vector<std::uint32_t> guides;  // strands of the groom that are simulated, ascending
+  std::vector<std::uint32_t> guides;  // strands of the groom that are simulated, ascending; none: they are no
+                                      // strands of it
   Groom groom;                        // those strands, in this order: what HairAsset::build is given
   std::vector<FollowHair> hairs;  // one a strand of the whole groom, in its order; FollowHair::guide is an
                                   // index into `guides`. The hair of a guide lies on the guide
   OwnPoints own;                  // of each: at rest all are where the groom has them
+
+  /// Without the hairs of guides, where these are the last strands of the groom and no hairs of it.
+  void leaveOutGuides();
 };
 
 /// Chooses `count` of the strands, or all (pickGuides). Every other strand follows the one of the four guides

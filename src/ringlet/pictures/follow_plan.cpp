@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "ringlet/follow/rest_shape.h"
 #include "ringlet/measure/head_fit.h"
 
 namespace ringlet {
@@ -59,37 +60,78 @@ std::vector<Vec3d> FollowPlan::rootsAt(double t, const HeadPose& head) const {
   return scalp_ ? scalp_->placesAt(t, head, roots_) : std::vector<Vec3d>();
 }
 
-Result<FollowPlan> FollowPlan::make(const Groom& rest, double metresPerUnit, const FollowOptions& options,
-                                    const HairGround& ground, const CutList& cuts) {
-  FollowPlan plan;
-  plan.metresPerUnit_ = metresPerUnit;
-  plan.firstPoint_ = rest.firstPoint;
+Status FollowPlan::takeStrands(const Groom& rest, double metresPerUnit, const CutList& cuts) {
+  metresPerUnit_ = metresPerUnit;
+  firstPoint_ = rest.firstPoint;
   const auto pieces = cuts.pieces();
   for (std::size_t s = 0; s < rest.strandCount(); ++s) {
-    const std::vector<Vec3d> strand = plan.strandOf(rest.points, s);
+    const std::vector<Vec3d> strand = strandOf(rest.points, s);
     if (!(lengthOf(strand) > 0))
       return Error{fmt::format(
           "strand {} of the groom has no length, so that no hair can follow it; `ringlet info --fix` drops "
           "such strands",
           s + 1)};
-    plan.guides_.push_back(restOfGuide(strand));
+    guides_.push_back(restOfGuide(strand));
     const auto cut = pieces.find(static_cast<std::uint32_t>(s));
     if (cut == pieces.end()) continue;
-    std::ranges::copy_if(cut->second, std::back_inserter(plan.guides_.back().pieces),
+    std::ranges::copy_if(cut->second, std::back_inserter(guides_.back().pieces),
                          [&](std::uint32_t first) { return first > 0 && first < strand.size(); });
   }
-  if (Status planted = plan.plant(options, ground); !planted) return planted.error();
+  return {};
+}
 
+Status FollowPlan::numberPoints() {
   std::uint64_t points = 0;
-  for (const FollowHair& each : plan.hairs_) points += plan.guides_[each.guide].arcs.size();
-  if (points > std::numeric_limits<std::uint32_t>::max())
-    return Error{fmt::format("{} hairs have {} points; at most {} can be numbered", plan.hairs_.size(),
-                             points, std::numeric_limits<std::uint32_t>::max())};
-  plan.firstHairPoint_ = {0};
-  for (const FollowHair& each : plan.hairs_)
-    plan.firstHairPoint_.push_back(plan.firstHairPoint_.back() +
-                                   static_cast<std::uint32_t>(plan.guides_[each.guide].arcs.size()));
+  firstHairPoint_ = {0};
+  for (std::size_t h = 0; h < hairs_.size(); ++h) {
+    points += pointCountOf(hairs_[h], guides_, own_.of(h));
+    firstHairPoint_.push_back(static_cast<std::uint32_t>(points));
+  }
+  if (points <= std::numeric_limits<std::uint32_t>::max()) return {};
+  return Error{fmt::format("{} hairs have {} points; at most {} can be numbered", hairs_.size(), points,
+                           std::numeric_limits<std::uint32_t>::max())};
+}
+
+Result<FollowPlan> FollowPlan::make(const Groom& rest, double metresPerUnit, const FollowOptions& options,
+                                    const HairGround& ground, const CutList& cuts) {
+  FollowPlan plan;
+  if (Status taken = plan.takeStrands(rest, metresPerUnit, cuts); !taken) return taken.error();
+  if (Status planted = plan.plant(options, ground); !planted) return planted.error();
+  if (Status numbered = plan.numberPoints(); !numbered) return numbered.error();
   return plan;
+}
+
+// All hairs of a groom of which the guides are simulated.
+Result<FollowPlan> FollowPlan::ofGroom(const LoadedScene& scene) {
+  FollowPlan plan;
+  if (Status taken = plan.takeStrands(scene.groom, scene.groom.metresPerUnit, {}); !taken)
+    return taken.error();
+  plan.hairs_ = scene.level->hairs;
+  plan.own_ = scene.level->own;
+  if (Status numbered = plan.numberPoints(); !numbered) return numbered.error();
+  if (!scene.scalp || !scene.rootShifts.empty()) return plan;
+  for (const FollowHair& hair : plan.hairs_) {
+    const GuideRest& guide = plan.guides_[hair.guide];
+    plan.roots_.push_back(guide.root + outOfFrame(guide.frame, Vec3d(hair.offset)));
+  }
+  auto bound = scene.scalp->bindOthers(plan.roots_);
+  if (!bound) return bound.error();
+  plan.scalp_.emplace(std::move(*bound));
+  return plan;
+}
+
+Result<std::optional<FollowPlan>> FollowPlan::ofScene(const LoadedScene& scene, int hairs,
+                                                      const HairLook& look, const CutList& cuts) {
+  if (hairs == 0 && !scene.level) return std::optional<FollowPlan>();
+  const auto planned = [&]() -> Result<FollowPlan> {
+    if (hairs == 0) return ofGroom(scene);
+    const auto ground = hairGroundOf(scene, look);
+    if (!ground) return ground.error();
+    return make(scene.groom, scene.groom.metresPerUnit, look.of({.hairCount = hairs}), *ground, cuts);
+  };
+  auto plan = planned();
+  if (!plan) return plan.error();
+  return std::optional(std::move(*plan));
 }
 
 Status FollowPlan::checkPose(const Groom& groom) const {

@@ -1,5 +1,5 @@
-// FollowPlan: the many hairs that follow the strands of an animation: which strand each follows, and where
-// beside it; and the poses of a frame. FullHair (on the host) and pictures (on a device) move them.
+// FollowPlan: the many hairs that follow the strands of an animation, planned beside them or a groom's own:
+// which strand each follows, and where beside it; and the poses of a frame. FullHair (on the host) and pictures (on a device) move them.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,7 @@
 #include "ringlet/pictures/hair_ground.h"
 #include "ringlet/scene/head_pose.h"
 #include "ringlet/scenes/frames/cut_list.h"
+#include "ringlet/scenes/load/load_scene.h"
 
 namespace ringlet {
 
@@ -24,6 +25,11 @@ class FollowPlan {
   /// hairs than can be numbered.
   static Result<FollowPlan> make(const Groom& rest, double metresPerUnit, const FollowOptions& options,
                                  const HairGround& ground = {}, const CutList& cuts = {});
+
+  /// The hairs that are shown of a scene in place of its strands: `hairs` planned beside them; at 0 those of
+  /// its groom, where they follow guides; else none. Errors: as above; a root of the groom off the scalp.
+  static Result<std::optional<FollowPlan>> ofScene(const LoadedScene& scene, int hairs, const HairLook& look,
+                                                   const CutList& cuts);
 
   /// Whether `groom` can be a pose of the strands: as many of them, with as many particles, at the same
   /// scale.
@@ -42,18 +48,23 @@ class FollowPlan {
   std::vector<Vec3d> rootsAt(double t, const HeadPose& head) const;
 
   const std::vector<GuideRest>& guides() const { return guides_; }  // one per strand
-  const std::vector<FollowHair>& hairs() const { return hairs_; }   // hairs of one strand are consecutive
+  const std::vector<FollowHair>& hairs() const { return hairs_; }
+  const OwnPoints& own() const { return own_; }  // of a whole groom's hairs, else empty
   /// Index of each hair's first point among all points, and at the end their number.
   const std::vector<std::uint32_t>& firstPoint() const { return firstHairPoint_; }
   double metresPerUnit() const { return metresPerUnit_; }
 
  private:
+  static Result<FollowPlan> ofGroom(const LoadedScene& scene);
+  Status takeStrands(const Groom& rest, double metresPerUnit, const CutList& cuts);
   Status plant(const FollowOptions& options, const HairGround& ground);
+  Status numberPoints();
 
   double metresPerUnit_ = 0.01;
   std::vector<std::uint32_t> firstPoint_;  // of strands
   std::vector<GuideRest> guides_;
   std::vector<FollowHair> hairs_;
+  OwnPoints own_;
   std::optional<HeadScalp> scalp_;  // the hairs' roots are bound to it
   std::vector<Vec3d> roots_;        // the hairs' roots at rest [m]
   std::vector<std::uint32_t> firstHairPoint_;

@@ -12,8 +12,25 @@ Result<FullHair> FullHair::make(const Groom& rest, double metresPerUnit, const F
                                 const HairGround& ground, const CutList& cuts) {
   auto plan = FollowPlan::make(rest, metresPerUnit, options, ground, cuts);
   if (!plan) return plan.error();
+  return of(std::move(*plan), rest, makeMover, bodies);
+}
+
+Result<std::optional<FullHair>> FullHair::ofScene(const LoadedScene& scene, int hairs, const HairLook& look,
+                                                  const FollowMoverMaker& makeMover, const CutList& cuts) {
+  auto plan = FollowPlan::ofScene(scene, hairs, look, cuts);
+  if (!plan) return plan.error();
+  if (!*plan) return std::optional<FullHair>();
+  if (!makeMover)
+    return Error{"a run with hairs that follow strands was given nothing that moves these hairs"};
+  auto hair = of(std::move(**plan), scene.groom, makeMover, scene.bodies);
+  if (!hair) return hair.error();
+  return std::optional(std::move(*hair));
+}
+
+Result<FullHair> FullHair::of(FollowPlan plan, const Groom& rest, const FollowMoverMaker& makeMover,
+                              std::span<const Body> bodies) {
   FullHair hair;
-  hair.plan_ = std::make_unique<FollowPlan>(std::move(*plan));
+  hair.plan_ = std::make_unique<FollowPlan>(std::move(plan));
   auto mover = makeMover(*hair.plan_, bodies);
   if (!mover) return mover.error();
   hair.mover_ = std::move(*mover);
@@ -29,12 +46,12 @@ CutList FullHair::cutsOfHairs(const CutList& cuts) const {
   std::vector<FrameCut> all;
   for (const FrameCut& each : cuts.all()) {
     if (each.cut.strand >= plan_->guides().size()) continue;
-    const std::size_t points = plan_->guides()[each.cut.strand].arcs.size();
-    auto hair = static_cast<std::uint32_t>(
-        std::ranges::lower_bound(plan_->hairs(), each.cut.strand, {}, &FollowHair::guide) -
-        plan_->hairs().begin());
-    for (; hair < plan_->hairs().size() && plan_->hairs()[hair].guide == each.cut.strand; ++hair) {
-      const std::size_t keep = pointsBefore(each.cut.keep, plan_->hairs()[hair], points);
+    for (std::uint32_t hair = 0; hair < plan_->hairs().size(); ++hair) {
+      const FollowHair& follows = plan_->hairs()[hair];
+      if (follows.guide != each.cut.strand) continue;
+      const auto own = plan_->own().of(hair);
+      const std::size_t points = pointCountOf(follows, plan_->guides(), own);
+      const std::size_t keep = pointsBefore(each.cut.keep, follows, points, own);
       if (keep < points) all.push_back({each.frame, {hair, static_cast<std::uint32_t>(keep)}});
     }
   }

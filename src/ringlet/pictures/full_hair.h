@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,11 @@ class FullHair {
                                const FollowMoverMaker& makeMover, std::span<const Body> bodies = {},
                                const HairGround& ground = {}, const CutList& cuts = {});
 
+  /// The hairs that FollowPlan::ofScene has, out of the scene's bodies; or none. `makeMover`: needed where
+  /// there are any.
+  static Result<std::optional<FullHair>> ofScene(const LoadedScene& scene, int hairs, const HairLook& look,
+                                                 const FollowMoverMaker& makeMover, const CutList& cuts);
+
   Status checkPose(const Groom& groom) const { return plan_->checkPose(groom); }
 
   /// Moves the hairs to a pose of the strands. Errors: those of the mover.
@@ -30,6 +36,8 @@ class FullHair {
 
   /// The hairs in the last pose given to follow, in the strands' unit.
   const Groom& groom() const { return groom_; }
+  /// Whether they are a whole groom's own hairs, in its order.
+  bool areOwn() const { return !plan_->own().empty(); }
   /// The strand that each hair follows.
   std::vector<std::uint32_t> strandOf() const;
   /// The hairs' cuts that result from cuts of the strands they follow.
@@ -37,6 +45,8 @@ class FullHair {
 
  private:
   FullHair() = default;
+  static Result<FullHair> of(FollowPlan plan, const Groom& rest, const FollowMoverMaker& makeMover,
+                             std::span<const Body> bodies);
 
   std::unique_ptr<FollowPlan> plan_;  // its address must not change: the mover refers to it
   std::unique_ptr<FollowMover> mover_;

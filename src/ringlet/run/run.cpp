@@ -181,19 +181,10 @@ Status Run::Work::openHair(const HairMaker& makeHair) {
 Status Run::Work::makeSink() {
   const int done = outcome_.resumedFrom;
   if (folder_) {
-    std::optional<FullHair> hairs;
-    if (options_.hairs > 0) {
-      if (!options_.mover)
-        return Error{"a run with hairs that follow strands was given nothing that moves these hairs"};
-      const auto ground = hairGroundOf(scene_, options_.look);
-      if (!ground) return ground.error();
-      auto made = FullHair::make(scene_.groom, scene_.groom.metresPerUnit,
-                                 options_.look.of({.hairCount = options_.hairs}), options_.mover,
-                                 scene_.bodies, *ground, CutList(frames_, scene_.frameCount));
-      if (!made) return made.error();
-      hairs.emplace(std::move(*made));
-    }
-    writers_.emplace(scene_, options_, std::move(hairs), done);
+    auto hairs = FullHair::ofScene(scene_, options_.hairs, options_.look, options_.mover,
+                                   CutList(frames_, scene_.frameCount));
+    if (!hairs) return hairs.error();
+    writers_.emplace(scene_, options_, std::move(*hairs), done);
   }
   if (!scene_.bodies.empty()) bodyWatch_.emplace(scene_.groom, scene_.bodies, scene_.settings.rootCount);
   const bool writesFrames = !animationsOf(options_).empty() || options_.writesSheet || events_.written;

@@ -72,7 +72,7 @@ UsdExtras RunWriters::usdExtras() const {
                    .originPrims = options_.usesGroomPrims};
   if (extras.unreal) addGroups(extras);
   extras.widthFactors.assign(scene_.widthFactors.begin(), scene_.widthFactors.end());
-  if (hairs_ && !extras.widthFactors.empty()) {
+  if (hairs_ && !hairs_->areOwn() && !extras.widthFactors.empty()) {
     extras.widthFactors.clear();
     for (const std::uint32_t strand : hairs_->strandOf())
       extras.widthFactors.push_back(scene_.widthFactors[strand]);
@@ -85,7 +85,8 @@ UsdExtras RunWriters::usdExtras() const {
 // Each strand is of the first group that has it; those of none are one group more.
 void RunWriters::addGroups(UsdExtras& extras) const {
   if (options_.groups.empty()) return;
-  std::vector<std::uint32_t> groupOf(scene_.groom.strandCount(),
+  const bool areOwn = hairs_ && hairs_->areOwn();
+  std::vector<std::uint32_t> groupOf((areOwn ? hairs_->groom() : scene_.groom).strandCount(),
                                      static_cast<std::uint32_t>(options_.groups.size()));
   for (std::size_t g = options_.groups.size(); g-- > 0;) {
     for (const StrandRun& run : options_.groups[g].runs) {
@@ -95,7 +96,7 @@ void RunWriters::addGroups(UsdExtras& extras) const {
   }
   for (const RunGroup& group : options_.groups) extras.groupNames.push_back(group.name);
   extras.groupNames.emplace_back("others");
-  if (!hairs_) {
+  if (!hairs_ || areOwn) {
     extras.groupOf = std::move(groupOf);
     return;
   }

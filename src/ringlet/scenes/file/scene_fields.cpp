@@ -22,6 +22,7 @@ constexpr NumberRange kUnit{1e-6, 1000};    // [m]
 constexpr NumberRange kSeconds{0, 3600};
 constexpr NumberRange kBindFrames{1, 1e6};
 constexpr NumberRange kPointsPerStrand{2, kMostPointsPerStrand};
+constexpr NumberRange kGuides{1, 1e6};
 constexpr const char* kGenerated = "curl, swatch, head";
 constexpr const char* kVarying = "swatch, head";
 constexpr const char* kToAndFro = "shake, nod, walk, jump";
@@ -80,6 +81,15 @@ std::span<const SceneField<SceneGroom>> groomFields() {
       {"points_per_strand", "", "none",
        "Points of each strand, of a file that holds points and nothing else.", &G::pointsPerStrand,
        kPointsPerStrand, "", "file"},
+      {"guides", "", "none",
+       "Number of the groom's strands that are simulated: its guides, which are picked. All its hairs follow "
+       "them, keep their own shape beside them, and are what is written. None: every strand is simulated.",
+       &G::guides, kGuides},
+      {"guides_file", "", "none", "File of the guides, in place of picked ones: in the groom's frame.",
+       &G::guidesFile},
+      {"guides_primvar", "", "none",
+       "Primvar of the groom's file, such as groom_guide, that is not 0 for the strands that are guides.",
+       &G::guidesPrimvar, {}, "", "file"},
       {"scale",
        "1",
        "",

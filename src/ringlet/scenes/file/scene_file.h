@@ -61,6 +61,12 @@ struct SceneGroom {
   std::string rootEnd = "first";          // of each strand of a file: or last, or head (groom/loaded_groom.h)
   int pointsPerStrand = 0;                // of a file of points only; 0: of none
 
+  // Strands that are simulated, which all others follow: so many, those of a file, or those whose primvar is
+  // not 0; nothing: all.
+  int guides = 0;
+  std::filesystem::path guidesFile{};
+  std::string guidesPrimvar{};
+
   // Into the head's frame, or the world: scaled, then turned, then moved.
   double scale = 1;
   Vec3d rotateDegrees{}, offset{};  // [m]

@@ -34,6 +34,7 @@
 #include "ringlet/scenes/load/idle_dials.h"
 #include "ringlet/scenes/load/motion_reach.h"
 #include "ringlet/scenes/load/scalp_doubts.h"
+#include "ringlet/scenes/load/scene_guides.h"
 #include "ringlet/scenes/load/scene_maps.h"
 #include "ringlet/scenes/load/scene_parts.h"
 #include "ringlet/scenes/load/scene_scalp.h"
@@ -404,6 +405,11 @@ Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known, 
   auto groom = known ? Result<LoadedGroom>(*known) : loadGroom(scene.groom);
   if (!groom) return groom.error();
   loaded.groom = std::move(groom->groom);
+  if (Status checked = checkGuides(scene); !checked) return checked.error();
+  const auto guides = readGuides(scene.groom, loaded.groom.metresPerUnit, loaded.warnings);
+  if (!guides) return guides.error();
+  const std::size_t guidesOfFile = *guides ? (*guides)->strandCount() : 0;
+  for (std::size_t g = 0; g < guidesOfFile; ++g) loaded.groom.addStrand((*guides)->strand(g));
   if (!worldBindOf(scene).groom) loaded.geometry = std::move(geometry);  // else its points move
   loaded.warnings.insert(loaded.warnings.end(), groom->warnings.begin(), groom->warnings.end());
   loaded.settings = settingsOf(scene);
@@ -431,6 +437,9 @@ Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known, 
   checkGroomFile(scene, groom->statesUp, loaded);
   notePreset(scene, loaded);
   if (Status added = addHairScalp(scene, loaded); !added) return added.error();
+  if (hasGuides(scene.groom)) {
+    if (Status taken = takeGuides(scene, guidesOfFile, loaded); !taken) return taken.error();
+  }
   if (!scene.timeKeys.empty()) {
     auto keys = SceneKeys::make(scene);
     if (!keys) return keys.error();

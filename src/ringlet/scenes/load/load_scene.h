@@ -9,6 +9,7 @@
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/bodies/triangle_mesh.h"
+#include "ringlet/follow/level_of_detail.h"
 #include "ringlet/groom/groom.h"
 #include "ringlet/groom/loaded_groom.h"
 #include "ringlet/motion/head_scalp.h"
@@ -59,7 +60,8 @@ using SharedGeometry = std::shared_ptr<const std::vector<StrandGeometry>>;
 
 /// Everything that a run of a scene starts from.
 struct LoadedScene {
-  Groom groom;
+  Groom groom;                                   // what is simulated: all strands, or the guides
+  std::shared_ptr<const LevelOfDetail> level{};  // of all hairs, where they follow guides
   SharedGeometry geometry{};  // of the groom, where it had to be measured or was known
   Material material;          // its dials worked in
   Settings settings;
@@ -71,7 +73,8 @@ struct LoadedScene {
   SceneForces forces{};              // fields and holds
   SceneHairs hairs{};
   std::vector<TimedCuts> cuts{};      // by rising time
-  std::vector<float> widthFactors{};  // of each strand, on the width in pictures and USD files; empty: all 1
+  std::vector<float> widthFactors{};  // of each strand, or hair of `level`, on the width in pictures and USD
+                                      // files; empty: all 1
   double preRollSeconds = 0;
   int frameCount = 48;                  // where the file does not say: the length of keys, or this
   std::optional<SceneKeys> keys{};      // of numbers that change; settings and material are then the start's

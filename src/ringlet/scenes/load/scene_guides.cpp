@@ -1,0 +1,145 @@
+// Implements scenes/load/scene_guides.h.
+#include "ringlet/scenes/load/scene_guides.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+#include "ringlet/base/quoted.h"
+#include "ringlet/groom/groom_file.h"
+#include "ringlet/scenes/load/scene_parts.h"
+#include "ringlet/scenes/load/strand_values.h"
+
+namespace ringlet {
+namespace {
+
+using Guides = std::vector<std::uint32_t>;
+
+// The same runs of strands, by the numbers that guides have among themselves.
+std::vector<StrandRun> runsAmong(const Guides& guides, std::span<const StrandRun> runs) {
+  std::vector<StrandRun> among;
+  for (const StrandRun& run : runs) {
+    const auto first = std::ranges::lower_bound(guides, run.first) - guides.begin();
+    const auto end = std::ranges::upper_bound(guides, run.last) - guides.begin();
+    if (first < end)
+      among.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end - 1), run.factor});
+  }
+  return among;
+}
+
+std::vector<float> factorsAmong(const Guides& guides, std::span<const float> factors) {
+  std::vector<float> among;
+  if (factors.empty()) return among;
+  for (const std::uint32_t s : guides) among.push_back(factors[s]);
+  return among;
+}
+
+std::vector<ContactBundle> bundlesAmong(const Guides& guides, std::span<const ContactBundle> bundles) {
+  std::vector<ContactBundle> among;
+  for (const ContactBundle& bundle : bundles) {
+    ContactBundle own;
+    for (const std::uint32_t s : bundle) {
+      const auto guide = std::ranges::lower_bound(guides, s);
+      if (guide != guides.end() && *guide == s)
+        own.push_back(static_cast<std::uint32_t>(guide - guides.begin()));
+    }
+    if (!own.empty()) among.push_back(std::move(own));
+  }
+  return among;
+}
+
+void takeFactors(const Guides& guides, LoadedScene& loaded) {
+  for (StrandFactors& factors : loaded.material.factors)
+    factors.runs = std::make_shared<const std::vector<StrandRun>>(runsAmong(guides, *factors.runs));
+  std::erase_if(loaded.material.factors, [](const StrandFactors& factors) { return factors.runs->empty(); });
+  ContactSettings& contacts = loaded.settings.contacts;
+  if (contacts.bundles)
+    contacts.bundles =
+        std::make_shared<const std::vector<ContactBundle>>(bundlesAmong(guides, *contacts.bundles));
+  if (contacts.bundles && contacts.bundles->empty()) contacts.bundles = nullptr;
+  if (contacts.radiusFactors)
+    contacts.radiusFactors =
+        std::make_shared<const std::vector<float>>(factorsAmong(guides, *contacts.radiusFactors));
+  loaded.hairs.densities = factorsAmong(guides, loaded.hairs.densities);
+  loaded.hairs.clumps = factorsAmong(guides, loaded.hairs.clumps);
+}
+
+Result<Guides> guidesOfPrimvar(const SceneGroom& scene, std::size_t strandCount) {
+  const auto groom = readGroom(scene.file, readingOf(scene, true));
+  if (!groom) return groom.error();
+  const auto values = valuesOfPrimvar(*groom, scene.guidesPrimvar);
+  if (!values) return values.error();
+  Guides guides;
+  for (std::uint32_t s = 0; s < std::min(values->size(), strandCount); ++s)
+    if ((*values)[s] != 0) guides.push_back(s);
+  if (guides.empty())
+    return Error{fmt::format("{}: the primvar {} is 0 for all {} strands, so that none is a guide",
+                             scene.file.string(), ringlet::quoted(scene.guidesPrimvar), strandCount)};
+  return guides;
+}
+
+Result<LevelOfDetail> levelOf(const SceneGroom& scene, const Groom& groom, std::size_t ofFile) {
+  if (ofFile > 0) {
+    Guides guides(ofFile);
+    std::iota(guides.begin(), guides.end(), static_cast<std::uint32_t>(groom.strandCount() - ofFile));
+    auto level = levelOfDetailOfGuides(groom, std::move(guides));
+    if (level) level->leaveOutGuides();
+    return level;
+  }
+  if (scene.guidesPrimvar.empty()) return levelOfDetailOfCount(groom, static_cast<std::size_t>(scene.guides));
+  auto guides = guidesOfPrimvar(scene, groom.strandCount());
+  if (!guides) return guides.error();
+  return levelOfDetailOfGuides(groom, std::move(*guides));
+}
+
+}  // namespace
+
+bool hasGuides(const SceneGroom& groom) {
+  return groom.guides > 0 || !groom.guidesFile.empty() || !groom.guidesPrimvar.empty();
+}
+
+Status checkGuides(const SceneFile& scene) {
+  const SceneGroom& groom = scene.groom;
+  const int ways = (groom.guides > 0) + !groom.guidesFile.empty() + !groom.guidesPrimvar.empty();
+  if (ways > 1)
+    return Error{"found several of groom.guides, guides_file and guides_primvar; expected one of them"};
+  const auto refuse = [](const char* what) {
+    return Error{fmt::format("guides do not go together with {}, which names strands of the groom", what)};
+  };
+  if (!scene.cuts.empty()) return refuse("[[cut]]");
+  if (!scene.timeKeys.empty() && !scene.maps.empty()) return refuse("a [[map]] beside keys over time");
+  if (groom.guidesFile.empty()) return {};
+  if (!scene.maps.empty()) return refuse("a [[map]]: they have a file of their own");
+  if (!scene.groups.empty()) return refuse("a [[group]]: they have a file of their own");
+  return {};
+}
+
+Result<std::optional<Groom>> readGuides(const SceneGroom& scene, double metresPerUnit,
+                                        std::vector<std::string>& warnings) {
+  if (scene.guidesFile.empty()) return std::optional<Groom>();
+  auto read = readGroom(scene.guidesFile, readingOf(scene, false));
+  if (!read) return Error{fmt::format("the guides: {}", read.error().message), read.error().fault};
+  for (const std::string& warning : read->warnings)
+    warnings.push_back(fmt::format("the guides: {}", warning));
+  const double scale =
+      read->statesUnit && !scene.metresPerUnit ? read->groom.metresPerUnit / metresPerUnit : 1;
+  for (Vec3f& point : read->groom.points) point = Vec3f(Vec3d(point) * scale);
+  read->groom.metresPerUnit = metresPerUnit;
+  placeGroom(scene, read->groom);
+  return std::optional(std::move(read->groom));
+}
+
+Status takeGuides(const SceneFile& scene, std::size_t ofFile, LoadedScene& loaded) {
+  auto level = levelOf(scene.groom, loaded.groom, ofFile);
+  if (!level) return level.error();
+  if (ofFile == 0) takeFactors(level->guides, loaded);
+  loaded.groom = level->groom;
+  loaded.geometry = nullptr;  // it was that of all strands
+  loaded.level = std::make_shared<const LevelOfDetail>(std::move(*level));
+  return {};
+}
+
+}  // namespace ringlet
