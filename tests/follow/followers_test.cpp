@@ -109,18 +109,20 @@ TEST_F(FollowersTest, AreWhereTheReferenceSays) {
     const std::vector<Vec3f> found = *followers->positions(), guides = *hair->positions();
     std::vector<BodyPose> seen = places;
     seen[0].position -= head.position;
+    std::vector<reference::GuidePose> poses;
+    for (std::size_t g = 0; g < level->groom.strandCount(); ++g) {
+      const auto strand = std::span(guides).subspan(level->groom.firstPoint[g], level->groom.strand(g).size());
+      const std::vector<Vec3d> rest = metresOf(level->groom, g);
+      std::vector<Vec3d> pose;
+      for (const Vec3f& p : strand) pose.push_back(Vec3d(p));
+      poses.push_back(reference::poseGuide(restOfGuide(rest), pose, head.rotation));
+    }
     std::size_t at = 0;
     for (std::size_t h = 0; h < level->hairs.size(); ++h) {
       const FollowHair& each = level->hairs[h];
-      std::vector<Vec3d> pose;
-      for (std::size_t i = level->groom.firstPoint[each.guide]; i < level->groom.firstPoint[each.guide + 1];
-           ++i)
-        pose.push_back(Vec3d(guides[i]));
-      const auto guide =
-          reference::poseGuide(restOfGuide(metresOf(level->groom, each.guide)), pose, head.rotation);
       const auto own = level->own.of(h);
-      const auto free = reference::followGuide(each, guide, {}, {}, std::nullopt, {}, own);
-      const auto kept = reference::followGuide(each, guide, bodies, seen, std::nullopt, {}, own);
+      const auto free = reference::followGuides(each, poses, {}, {}, std::nullopt, own);
+      const auto kept = reference::followGuides(each, poses, bodies, seen, std::nullopt, own);
       // The frame's error turns the offset, which here is up to some centimetres.
       const double bound =
           parity::kFollowMetres * std::max(1.0, each.spread * double(length(each.offset)) / 0.04);

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -137,16 +139,48 @@ Fit refined(Fit best, const RestShape& guide, const RestShape& strand) {
   return best;
 }
 
-// The guide that fits a strand best among those it is most like.
-FollowHair fittedHair(const StrandTraits& traits, std::span<const RestShape> shapes,
-                      std::span<const std::uint32_t> guides, std::size_t strand) {
+// A strand whose guides are looked for, and those it is most like, nearest first.
+struct Candidates {
+  const StrandTraits& traits;
+  std::span<const RestShape> shapes;
+  std::span<const std::uint32_t> guides;
+  std::size_t strand;
+  std::vector<std::uint32_t> near = traits.nearest(strand, guides, kCandidates);
+
+  const RestShape& own() const { return shapes[strand]; }
+  const RestShape& guide(std::uint32_t number) const { return shapes[guides[number]]; }
+  double distance(std::uint32_t number) const { return std::sqrt(traits.apart(strand, guides[number])); }  // [m]
+};
+
+// The candidate that fits best.
+FollowHair fittedHair(const Candidates& of) {
   Fit best{{}, std::numeric_limits<double>::infinity()};
-  for (const std::uint32_t g : traits.nearest(strand, guides, kCandidates)) {
-    Fit fit = fitTo(shapes[guides[g]], shapes[strand]);
+  for (const std::uint32_t g : of.near) {
+    Fit fit = fitTo(of.guide(g), of.own());
     fit.hair.guide = g;
     if (fit.distance2 < best.distance2) best = fit;
   }
-  return refined(best, shapes[guides[best.hair.guide]], shapes[strand]).hair;
+  return refined(best, of.guide(best.hair.guide), of.own()).hair;
+}
+
+// What the three nearest have in its core, which vanishes where one is as far as the fourth (Franke and
+// Nielson 1980).
+void blend(const Candidates& of, FollowHair& hair) {
+  if (of.near.size() < kCandidates) return;
+  const double reach = of.distance(of.near.back());
+  std::array<double, kCandidates - 1> shares{};
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    const double distance = std::max(of.distance(of.near[k]), kLeastPart * reach);
+    shares[k] = std::pow(std::max(reach - distance, 0.0) / (reach * distance), 2);
+  }
+  const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
+  auto other = hair.others.begin();
+  for (std::size_t k = 0; k < shares.size() && other != hair.others.end(); ++k) {
+    if (of.near[k] == hair.guide || !(shares[k] > 0)) continue;
+    const RestShape& its = of.guide(of.near[k]);
+    *other++ = {of.near[k], static_cast<float>(shares[k] / sum),
+                Vec3f(inFrame(its.frames.front(), of.own().points.front() - its.points.front()))};
+  }
 }
 
 std::vector<RestShape> shapesOf(const Groom& groom) {
@@ -169,13 +203,18 @@ LevelOfDetail levelOf(const Groom& groom, std::span<const RestShape> shapes, con
     ofGuides.push_back(shapes[s]);
   }
   level.hairs.resize(shapes.size());
+  const auto follow = [&](std::size_t s) {
+    const Candidates candidates{traits, shapes, guides, s};
+    level.hairs[s] = fittedHair(candidates);
+    blend(candidates, level.hairs[s]);
+  };
   std::vector<std::vector<OwnPoint>> own(shapes.size());
   eachInParallel(coreCount(), shapes.size(), kFitPart, [&](std::size_t s) {
     const auto guide = std::ranges::lower_bound(guides, static_cast<std::uint32_t>(s));
     if (guide != guides.end() && *guide == s)
       level.hairs[s].guide = static_cast<std::uint32_t>(guide - guides.begin());
     else
-      level.hairs[s] = fittedHair(traits, shapes, guides, s);
+      follow(s);
     own[s] = ownPointsOf(level.hairs[s], shapes[s].points, ofGuides);
   });
   level.own.firstPoint = groom.firstPoint;
