@@ -1,9 +1,13 @@
 // Levels of detail: some strands are simulated, the others follow them on the device.
 #include <fmt/format.h>
+#include <pybind11/stl.h>
 
+#include <algorithm>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "python/arrays.h"
@@ -21,10 +25,34 @@ struct LevelObject {
 };
 using LevelHandle = std::shared_ptr<LevelObject>;
 
-LevelHandle makeLevel(GroomHandle whole, double share) {
-  if (!(share > 0 && share <= 1))
-    throw py::value_error(fmt::format("share is above 0 and at most 1, got {}", share));
-  LevelOfDetail level = withoutGil([&] { return valueOf(levelOfDetail(whole->groom(), share)); });
+using Strands = std::variant<std::int64_t, std::vector<std::int64_t>>;
+
+// A number of guides, or which strands they are, in any order.
+Result<LevelOfDetail> levelWith(const Groom& groom, const Strands& guides) {
+  if (const auto* count = std::get_if<std::int64_t>(&guides)) {
+    if (*count < 1) throw py::value_error(fmt::format("guides is at least 1, got {}", *count));
+    return levelOfDetailOfCount(groom, static_cast<std::size_t>(*count));
+  }
+  std::vector<std::uint32_t> strands;
+  for (const std::int64_t s : std::get<std::vector<std::int64_t>>(guides)) {
+    if (s < 0 || s >= static_cast<std::int64_t>(groom.strandCount()))
+      throw py::value_error(
+          fmt::format("guides are strands from 0 to {}, got {}", groom.strandCount() - 1, s));
+    strands.push_back(static_cast<std::uint32_t>(s));
+  }
+  std::ranges::sort(strands);
+  if (strands.empty() || std::ranges::adjacent_find(strands) != strands.end())
+    throw py::value_error("guides are strands of the groom, at least one, and each once");
+  return levelOfDetailOfGuides(groom, std::move(strands));
+}
+
+LevelHandle makeLevel(GroomHandle whole, std::optional<double> share, const std::optional<Strands>& guides) {
+  if (share.has_value() == guides.has_value()) throw py::value_error("name one of share and guides");
+  if (share && !(*share > 0 && *share <= 1))
+    throw py::value_error(fmt::format("share is above 0 and at most 1, got {}", *share));
+  LevelOfDetail level = withoutGil([&] {
+    return valueOf(share ? levelOfDetail(whole->groom(), *share) : levelWith(whole->groom(), *guides));
+  });
   auto groom = std::make_shared<GroomObject>(LoadedGroom{.groom = level.groom});
   return std::make_shared<LevelObject>(LevelObject{std::move(whole), std::move(groom), std::move(level)});
 }
@@ -73,9 +101,11 @@ class FollowersObject {
 void addLevel(py::module_& module) {
   py::class_<LevelObject, LevelHandle>(
       module, "LevelOfDetail",
-      "A share of a groom's strands, with evenly spread roots, and how the others follow them. Constant.")
-      .def(py::init(&makeLevel), py::arg("groom").none(false), py::arg("share"),
-           "share: above 0, at most 1. ringlet.Error for a strand without length.")
+      "Some of a groom's strands, its guides, and how all others follow them. Constant.")
+      .def(py::init(&makeLevel), py::arg("groom").none(false), py::arg("share") = py::none(), py::kw_only(),
+           py::arg("guides") = py::none(),
+           "share: of strands that are picked, above 0, at most 1; or guides: their number, or which strands. "
+           "ringlet.Error for a strand without length.")
       .def_property_readonly(
           "groom", [](const LevelObject& self) { return self.groom; },
           "The Groom of the strands that are simulated: what an Asset is made of.")

@@ -202,6 +202,25 @@ TEST(UsdUnreal, AlembicHasThemToo) {
               {"primvars:groom_tool", "string[]", "constant", {}, {"Ringlet"}}});
 }
 
+// Strand 1 follows strand 0, which is a guide. Ids are those of the file.
+TEST(UsdUnreal, GuidesAndWhoFollowsThem) {
+  const LoadedGroom groom = groomSaying(R"(int[] primvars:id = [42, 7] (interpolation = "uniform"))");
+  const std::vector<ClosestGuides> closest{{.strands = {0, 0, 0}},
+                                           {.strands = {0, 1, 0}, .shares = {0.75f, 0.25f, 0}}};
+  for (const std::string ending : {".usda", ".usdc", ".abc"}) {
+    SCOPED_TRACE(ending);
+    const GroomPrim prim = written(ending, groom.groom, {.closestGuides = closest, .origin = &groom});
+    expectRows(prim, {{"primvars:groom_guide", "int[]", "uniform", {1, 0}}});
+    if (ending != ".abc") {  // three integers are none of the importer's types in USD
+      EXPECT_FALSE(find(prim, "primvars:groom_closest_guides"));
+      continue;
+    }
+    expectRows(prim, {{"primvars:groom_closest_guides", "int3[]", "uniform", {42, 42, 42, 42, 7, 42}},
+                      {"primvars:groom_guide_weights", "float3[]", "uniform", {1, 0, 0, 0.75, 0.25, 0}}});
+    EXPECT_FALSE(find(written(ending, groom.groom, {.origin = &groom}), "primvars:groom_closest_guides"));
+  }
+}
+
 // The prim is a groom's; the schema's version is said of the whole.
 TEST(UsdUnreal, ThePrimHasTheApiAndTheVersion) {
   const LoadedGroom groom = groomSaying("");

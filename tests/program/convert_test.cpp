@@ -434,7 +434,6 @@ TEST_F(Convert, AWrongCommandLineIsSaidAndExit2) {
         Case{{"simulate", "groom.obj", "-o", "none", "--clump", "0.5"},
              "only such hairs have frizz, clumps and blends"},
         Case{{"render", "out", "-o", "none", "--hairs", "0", "--frizz", "2"}, "0 are no hairs"},
-        Case{{"convert", "out/hair.rgc", "a.rgc", "--scene", "scene.toml"}, "only --hairs needs it"},
         Case{
             {"convert", "out/hair.rgc", "a.rgc", "--hairs", "9", "--groom", "groom.obj", "--scene", "a.toml"},
             "say one of --scene and --groom"},

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -160,6 +161,81 @@ TEST_F(Outputs, HairsThatFollowAreInEveryAnimation) {
        {"hairs/hair.usda", "hairs/hair.usdc", "hairs/hair.abc", "hairs/hair.rgc", "clips/hair.rgc"})
     EXPECT_EQ(frameOf(file, {}), expected) << file;
   EXPECT_EQ(frameOf("clips/hair_clips/hair.0002.usdc", {}, "2"), expected);
+}
+
+// All hairs of a groom whose guides are simulated are in every animation, as many and where the groom has
+// them; and what is made of an animation of the guides alone is the same.
+TEST_F(Outputs, HairsOfTheGroomFollowItsGuides) {
+  ASSERT_EQ(run({"make", "head", "--strands", "40", "--particles", "12", "--turns", "2", "-o", "dense.obj"})
+                .exitCode,
+            0);
+  ASSERT_EQ(run({"make", "head", "--strands", "7", "--particles", "9", "--turns", "2", "-o", "guides.obj"})
+                .exitCode,
+            0);
+  const std::vector<std::string> formats{"--usdc", "--also", "hair.abc", "--cache", "float32"};
+  const auto simulateInto = [&](const std::string& groom, const std::string& folder,
+                                std::vector<std::string> more) {
+    more.insert(more.end(), formats.begin(), formats.end());
+    more.insert(more.end(), {"-o", folder, "--json"});
+    const auto result = simulate(groom, more);
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    return json::parse(result.out, nullptr, false);
+  };
+  const auto frameOf = [&](const std::string& file, std::vector<std::string> more = {}) {
+    more.insert(more.begin(), {"convert", file, "frame.obj", "--frame", "4"});
+    const auto result = run(more);
+    EXPECT_EQ(result.exitCode, 0) << file << ": " << result.err;
+    return readText(folder_ / "frame.obj");
+  };
+  const json still =
+      simulateInto("dense.obj", "still", {"--guides", "9", "--guides-sample", "5", "--motion", "still"});
+  EXPECT_EQ(still["strands"], 14);
+  EXPECT_EQ(still["hairs"], 40);
+  EXPECT_LT(double(still["follow_error"]), 1e-3);
+  const auto first = readGroom(folder_ / "dense.obj", {});
+  ASSERT_TRUE(first);
+  for (const char* file : {"hair.usda", "hair.usdc", "hair.abc", "hair.rgc"}) {
+    SCOPED_TRACE(file);
+    auto reader = AnimationReader::open(folder_ / "still" / file);
+    ASSERT_TRUE(reader) << reader.error().message;
+    ASSERT_TRUE(reader->readFrame(1));
+    EXPECT_EQ(reader->groom().firstPoint, first->groom.firstPoint);
+    for (std::size_t i = 0; i < first->groom.points.size(); ++i)
+      ASSERT_LT(length(reader->groom().points[i] - first->groom.points[i]), 0.02f) << i;
+  }
+  const json nod = simulateInto("dense.obj", "nod", {"--guides-file", "guides.obj", "--motion", "nod"});
+  EXPECT_EQ(nod["strands"], 7);
+  EXPECT_TRUE(nod["follow_error"].is_null());
+  const std::string expected = frameOf("nod/hair.rgc");
+  for (const char* file : {"hair.usda", "hair.usdc", "hair.abc"})
+    EXPECT_TRUE(frameOf(std::string("nod/") + file) == expected) << file;
+  simulateInto("guides.obj", "guides", {"--motion", "nod"});
+  std::ofstream(folder_ / "dense.toml") << "[groom]\nfile = 'dense.obj'\nguides_file = 'guides.obj'\n";
+  EXPECT_TRUE(frameOf("guides/hair.rgc", {"--scene", "dense.toml"}) == expected);
+  const auto other = run({"convert", "nod/hair.rgc", "frame.obj", "--frame", "4", "--scene", "dense.toml"});
+  EXPECT_EQ(other.exitCode, 1);
+  EXPECT_NE(other.err.find("IN has 40 strands, its guides are 7"), std::string::npos) << other.err;
+}
+
+// What the groom's file says of its curves is said of all its hairs, whoever is simulated.
+TEST_F(Outputs, HairsOfTheGroomKeepItsPrimsAndValues) {
+  std::ofstream(folder_ / "scene.usda") << kUsdGroom;
+  const auto valuesOf = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"--usdc", "--no-usd", "--usd-values", "groom,unreal", "-o", "values"});
+    const auto result = simulate("scene.usda", more);
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    auto read = readGroom(folder_ / "values/hair.usdc", {.keepsPrims = true});
+    EXPECT_TRUE(read);
+    fs::remove_all(folder_ / "values");
+    std::map<std::string, std::vector<double>> values;
+    for (const GroomValue& value : read->prims.front().values) values[value.name] = value.numbers;
+    return values;
+  };
+  auto whole = valuesOf({"--up", "Z"}), guided = valuesOf({"--up", "Z", "--guides", "1"});
+  EXPECT_EQ(guided["primvars:groom_guide"].size(), 3u);
+  EXPECT_EQ(std::ranges::count(guided["primvars:groom_guide"], 1), 1);
+  guided.erase("primvars:groom_guide");
+  EXPECT_EQ(guided, whole);
 }
 
 // A ball that moves with the head pushes hairs, the same in the run and afterwards.

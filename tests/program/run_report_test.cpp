@@ -74,6 +74,8 @@ RunOutcome outcome() {
   outcome.notes = {"a note"};
   outcome.outputs = {"out/hair.usda", "out/hair.rgc"};
   outcome.cacheErrorBound = 0.000244140625;
+  outcome.hairCount = 2000;
+  outcome.follow = {.hairs = 30, .rms = 0.0625, .worst = 0.25};
   return outcome;
 }
 
@@ -135,6 +137,9 @@ TEST(RunReport, EveryNumberIsInItsUnit) {
       {"tuned", true},
       {"device_bytes", 123456},
       {"cache_error_bound_m", 0.000244140625},
+      {"hairs", 2000},
+      {"follow_error", 0.0625},
+      {"follow_error_worst", 0.25},
       {"compile_ms", 1500.0},
       {"backend", "reference"},
       {"positions_hash", "0123456789abcdef"},
@@ -159,6 +164,7 @@ TEST(RunReport, WhatIsNotKnownIsNull) {
   unknown.bodyNumbers.reset();
   unknown.hair.deviceBytes.reset();
   unknown.cacheErrorBound.reset();
+  unknown.follow.reset();
   const json found = printed(runJson(kNames, settings(), unknown));
   const json whole = printed(runJson(kNames, settings(), outcome()));
   std::set<std::string> nulls;
@@ -174,7 +180,8 @@ TEST(RunReport, WhatIsNotKnownIsNull) {
                                    "pairs_unpruned", "pairs", "pair_tests", "rebuilds", "momentum_error",
                                    "volume_cut", "volume_largest", "raw_recall", "overlap_beyond_rest_sum",
                                    "deepest_overlap_all", "crossings", "deepest_penetration_mm",
-                                   "inside_bodies", "device_bytes", "cache_error_bound_m"}));
+                                   "inside_bodies", "device_bytes", "cache_error_bound_m", "follow_error",
+                                   "follow_error_worst"}));
 }
 
 TEST(RunReport, TheTextHasTheSameNumbers) {

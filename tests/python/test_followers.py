@@ -28,6 +28,30 @@ def test_a_level_is_a_share_of_the_strands(head):
         level.guides[0] = 1
 
 
+def test_guides_are_counted_or_named(head):
+    assert ringlet.LevelOfDetail(head, guides=7).groom.strand_count == 7
+    assert list(ringlet.LevelOfDetail(head, guides=[50, 3, 20]).guides) == [3, 20, 50]
+    assert list(ringlet.LevelOfDetail(head, guides=500).guides) == list(range(60))
+    for wrong in 0, -1, [], [60], [-1], [3, 3]:
+        with pytest.raises(ValueError, match="guides"):
+            ringlet.LevelOfDetail(head, guides=wrong)
+    for both in {}, {"share": 0.5, "guides": 5}:
+        with pytest.raises(ValueError, match="share and guides"):
+            ringlet.LevelOfDetail(head, **both)
+
+
+def test_hairs_keep_their_own_points_at_rest(device):
+    counts = [5, 24, 9, 40, 2, 17]
+    points = np.concatenate([np.stack([np.full(n, 0.4 * s), -np.linspace(0, 8 + s, n), np.linspace(0, 1, n) ** 2],
+                                      axis=1) for s, n in enumerate(counts)])
+    groom = ringlet.Groom(points.astype(np.float32), counts=counts)
+    level = ringlet.LevelOfDetail(groom, guides=[1, 3])
+    followers = ringlet.Followers(ringlet.Hair(ringlet.Asset(device, level.groom)), level)
+    followers.follow()
+    assert list(np.diff(followers.first_point)) == counts
+    assert followers.points() == pytest.approx(groom.points, abs=1e-4)
+
+
 def test_all_strands_follow_those_that_are_simulated(device, head):
     whole = moved(device, head)
     rest = ringlet.Hair(whole.asset).positions()

@@ -1,6 +1,7 @@
 // run/run.h: what a run asks and tells, in which order, and how it ends.
 #include "ringlet/run/run.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -93,6 +94,38 @@ TEST_F(RunTest, WhatAnObserverRefusesEndsIt) {
   const auto outcome = runScene(scene_, {.folder = folder_}, hairOn({device()}), events);
   ASSERT_FALSE(outcome);
   EXPECT_EQ(outcome.error().message, "no");
+}
+
+// A groom's own hairs, by the device.
+TEST_F(RunTest, HairsOfTheGroomAreWrittenAndMeasured) {
+  const std::string groom =
+      "[groom]\ngenerate = \"swatch\"\ncolumns = 6\nrows = 5\nparticles = 16\nturns = 2\nguides = 8\n";
+  const std::string frames = "[simulation]\nframes = 6\n";
+  for (const int sample : {0, 6}) {
+    for (const char* motion : {"still", "shake"}) {
+      SCOPED_TRACE(fmt::format("{}, {} measured", motion, sample));
+      const auto scene = loadScene(*parseScene(
+          fmt::format("{}guides_sample = {}\n{}[motion]\nkind = \"{}\"\n", groom, sample, frames, motion),
+          "the scene"));
+      ASSERT_TRUE(scene) << scene.error().message;
+      const auto outcome = runScene(
+          *scene, {.folder = folder_, .mover = followOn(device()), .leftovers = Leftovers::overwrite},
+          hairOn({device()}));
+      ASSERT_TRUE(outcome) << outcome.error().message;
+      EXPECT_EQ(outcome->strandCount, 8u + std::size_t(sample));
+      EXPECT_EQ(outcome->hairCount, 30u);
+      ASSERT_EQ(outcome->follow.has_value(), sample > 0);
+      if (sample == 0) continue;
+      EXPECT_EQ(outcome->follow->hairs, 6u);
+      EXPECT_GE(outcome->follow->worst, outcome->follow->rms);
+      if (std::string(motion) == "still") {
+        EXPECT_LT(outcome->follow->worst, 1e-4);
+      } else {
+        EXPECT_GT(outcome->follow->rms, 1e-4);
+        EXPECT_LT(outcome->follow->rms, 0.1);
+      }
+    }
+  }
 }
 
 TEST_F(RunTest, HairsThatFollowNeedAMover) {

@@ -39,6 +39,7 @@ constexpr KeyOption kKeyOptions[] = {
     {"--guides", "groom", "guides"},
     {"--guides-file", "groom", "guides_file"},
     {"--guides-primvar", "groom", "guides_primvar", "NAME"},
+    {"--guides-sample", "groom", "guides_sample"},
     {"--bind", "groom", "bind"},
     {"--bind-frame", "groom", "bind_frame"},
     {"--style", "groom", "style"},

@@ -287,6 +287,8 @@ Status runConvert(const TypedConvert& typed) {
   if (!cuts) return cuts.error();
   auto hair = fullHairOf(typed, *source, *cuts, *scene);
   if (!hair) return hair.error();
+  UsdExtras extras = usdExtras(typed, source->header().metresPerUnit);
+  if (*hair) extras.closestGuides = (*hair)->closestGuides();
   const auto outcome = convert(
       *source,
       {.to = *kindOf(typed),
@@ -294,7 +296,7 @@ Status runConvert(const TypedConvert& typed) {
        .firstFrame = range->first,
        .lastFrame = range->last,
        .precision = typed.precision.empty() ? source->header().precision : precisionByName(typed.precision),
-       .usd = usdExtras(typed, source->header().metresPerUnit),
+       .usd = std::move(extras),
        .hair = *hair ? &**hair : nullptr,
        .scene = *scene ? &**scene : nullptr,
        .cuts = *hair ? (*hair)->cutsOfHairs(*cuts) : *cuts,

@@ -78,6 +78,14 @@ std::string runText(const RunNames& names, const Settings& settings, const RunOu
                 ? fmt::format("; {} particles began inside and are there still\n", bodies->inside)
                 : "\n";
   }
+  if (outcome.hairCount > 0) {
+    text += fmt::format("  hairs         {} follow the strands and are written in their place", outcome.hairCount);
+    if (const auto& follow = outcome.follow)
+      text += fmt::format(
+          ": {:.2g} % of their length from where they would be, {:.2g} % at worst ({} were simulated too)",
+          100 * follow->rms, 100 * follow->worst, follow->hairs);
+    text += '\n';
+  }
   for (const BodyOutcome& body : outcome.bodies)
     if (body.cell)
       text += fmt::format("                {}: cells of {:.3g} mm, keeps hair out within {:.3g} mm\n",

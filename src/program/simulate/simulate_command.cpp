@@ -353,7 +353,7 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
   addSetOption(*command, typed->keys);
   addOptionsOfKeys(*command, typed->keys,
                    {"groom.unit", "groom.up", "groom.root_end", "groom.points_per_strand", "groom.guides",
-                    "groom.guides_file", "groom.guides_primvar", "groom.bind",
+                    "groom.guides_file", "groom.guides_primvar", "groom.guides_sample", "groom.bind",
                     "groom.bind_frame"},
                    "Groom");
   addMotionOptions(*command, typed->keys);

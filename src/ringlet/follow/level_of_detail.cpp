@@ -233,6 +233,17 @@ void LevelOfDetail::leaveOutGuides() {
   guides.clear();
 }
 
+void LevelOfDetail::addSample(const Groom& whole, std::size_t count) {
+  std::vector<std::uint32_t> others;
+  for (std::uint32_t s = 0; s < hairs.size(); ++s)
+    if (!std::ranges::binary_search(guides, s)) others.push_back(s);
+  count = std::min(count, others.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    sample.push_back(others[(2 * k + 1) * others.size() / (2 * count)]);
+    groom.addStrand(whole.strand(sample.back()));
+  }
+}
+
 Result<LevelOfDetail> levelOfDetail(const Groom& groom, double share) {
   if (!(share > 0 && share <= 1))
     return Error{fmt::format(

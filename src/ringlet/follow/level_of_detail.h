@@ -17,7 +17,11 @@ struct LevelOfDetail {
   std::vector<FollowHair> hairs;  // one a strand of the whole groom, in its order; FollowHair::guide is an
                                   // index into `guides`. The hair of a guide lies on the guide
   OwnPoints own;                  // of each: at rest all are where the groom has them
+  std::vector<std::uint32_t> sample{};  // strands that follow and are simulated as well, to measure how well
+                                        // they do: in `groom` after the guides
 
+  /// Makes `count` of the strands of `whole` that follow the sample, or all of them, evenly from its order.
+  void addSample(const Groom& whole, std::size_t count);
   /// Without the hairs of guides, where these are the last strands of the groom and no hairs of it.
   void leaveOutGuides();
 };

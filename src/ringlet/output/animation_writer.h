@@ -2,6 +2,7 @@
 // are. Programs go through the table.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -50,6 +51,15 @@ enum class UsdHead {
 };
 
 /// What a USD or Alembic file may say beside points, widths and extents.
+/// The guides that a strand of a groom follows, strands of it too, and their shares, which add up to 1. A
+/// guide follows itself.
+struct ClosestGuides {
+  std::array<std::uint32_t, 3> strands{};
+  std::array<float, 3> shares{1, 0, 0};
+
+  bool operator==(const ClosestGuides&) const = default;
+};
+
 struct UsdExtras {
   std::optional<float> tipDiameter{};    // strands are evenly thinner from root to tip [file unit]
   std::vector<float> widthFactors{};     // of each strand, on both diameters; empty: all 1
@@ -59,6 +69,7 @@ struct UsdExtras {
   bool unreal = false;                   // what Unreal's importer of grooms reads (usd_unreal.h)
   std::vector<std::uint32_t> groupOf{};  // each strand's, for Unreal: a number of groupNames; empty: none
   std::vector<std::string> groupNames{};
+  std::vector<ClosestGuides> closestGuides{};  // of each strand, for Unreal; empty: unknown
   UsdHead head = UsdHead::baked;
   int firstTimeCode = 1;  // of the first frame
   int clipFrames = 0;     // above 0: .usda has value clips of so many frames (usd_clips_writer.h)

@@ -108,6 +108,7 @@ Result<FollowPlan> FollowPlan::ofGroom(const LoadedScene& scene) {
     return taken.error();
   plan.hairs_ = scene.level->hairs;
   plan.own_ = scene.level->own;
+  plan.guideStrands_ = scene.level->guides;
   if (Status numbered = plan.numberPoints(); !numbered) return numbered.error();
   if (!scene.scalp || !scene.rootShifts.empty()) return plan;
   for (const FollowHair& hair : plan.hairs_) {

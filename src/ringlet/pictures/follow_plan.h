@@ -49,6 +49,8 @@ class FollowPlan {
 
   const std::vector<GuideRest>& guides() const { return guides_; }  // one per strand
   const std::vector<FollowHair>& hairs() const { return hairs_; }
+  /// The groom's strands that its own hairs follow; none: they follow a file's.
+  const std::vector<std::uint32_t>& guideStrands() const { return guideStrands_; }
   const OwnPoints& own() const { return own_; }  // of a whole groom's hairs, else empty
   /// Index of each hair's first point among all points, and at the end their number.
   const std::vector<std::uint32_t>& firstPoint() const { return firstHairPoint_; }
@@ -65,6 +67,7 @@ class FollowPlan {
   std::vector<GuideRest> guides_;
   std::vector<FollowHair> hairs_;
   OwnPoints own_;
+  std::vector<std::uint32_t> guideStrands_;
   std::optional<HeadScalp> scalp_;  // the hairs' roots are bound to it
   std::vector<Vec3d> roots_;        // the hairs' roots at rest [m]
   std::vector<std::uint32_t> firstHairPoint_;

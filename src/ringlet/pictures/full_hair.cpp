@@ -58,6 +58,23 @@ CutList FullHair::cutsOfHairs(const CutList& cuts) const {
   return CutList(std::move(all));
 }
 
+std::vector<ClosestGuides> FullHair::closestGuides() const {
+  const std::vector<std::uint32_t>& strands = plan_->guideStrands();
+  std::vector<ClosestGuides> all;
+  if (strands.empty()) return all;
+  for (const FollowHair& hair : plan_->hairs()) {
+    ClosestGuides& each = all.emplace_back();
+    each.strands.fill(strands[hair.guide]);
+    for (std::size_t k = 0; k < hair.others.size(); ++k) {
+      if (!(hair.others[k].share > 0)) continue;
+      each.strands[k + 1] = strands[hair.others[k].guide];
+      each.shares[k + 1] = hair.others[k].share;
+      each.shares[0] -= hair.others[k].share;
+    }
+  }
+  return all;
+}
+
 std::vector<std::uint32_t> FullHair::strandOf() const {
   std::vector<std::uint32_t> strands;
   for (const FollowHair& hair : plan_->hairs()) strands.push_back(hair.guide);

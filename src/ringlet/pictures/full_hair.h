@@ -8,6 +8,7 @@
 
 #include "ringlet/base/result.h"
 #include "ringlet/groom/groom.h"
+#include "ringlet/output/animation_writer.h"
 #include "ringlet/pictures/follow_mover.h"
 #include "ringlet/pictures/follow_plan.h"
 #include "ringlet/scene/body.h"
@@ -40,6 +41,8 @@ class FullHair {
   bool areOwn() const { return !plan_->own().empty(); }
   /// The strand that each hair follows.
   std::vector<std::uint32_t> strandOf() const;
+  /// The guides of each, where they are a groom's own that follow strands of it; else none.
+  std::vector<ClosestGuides> closestGuides() const;
   /// The hairs' cuts that result from cuts of the strands they follow.
   CutList cutsOfHairs(const CutList& cuts) const;
 

@@ -349,6 +349,8 @@ Status Run::Work::finishFiles() {
     if (!outputs) return outputs.error();
     outcome_.outputs = std::move(*outputs);
     outcome_.cacheErrorBound = writers_->errorBound();
+    outcome_.hairCount = writers_->hairCount();
+    outcome_.follow = writers_->followNumbers();
     folder_->finish();
   }
   outcome_.wall = {secondsBetween(start_, firstFrame_), secondsBetween(firstFrame_, lastFrame_),

@@ -11,6 +11,7 @@
 #include "ringlet/base/vec3.h"
 #include "ringlet/measure/body_watch.h"
 #include "ringlet/measure/contact_numbers.h"
+#include "ringlet/pictures/follow_watch.h"
 #include "ringlet/run/body_outcome.h"
 #include "ringlet/run/scene_hair.h"
 #include "ringlet/solver/diagnostics.h"
@@ -63,6 +64,8 @@ struct RunOutcome {
   int resumedFrom = 0;           // number of frames that an earlier run had done
   std::vector<std::string> warnings, notes;
   std::vector<std::filesystem::path> outputs;
+  std::size_t hairCount = 0;              // that follow strands and are written in their place
+  std::optional<FollowNumbers> follow;    // how well they do, where some of them are simulated as well
   std::optional<double> cacheErrorBound;  // largest distance of a point of the cache from its particle [m]
 };
 

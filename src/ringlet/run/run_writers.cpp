@@ -35,6 +35,7 @@ RunWriters::RunWriters(const LoadedScene& scene, const RunOptions& options, std:
       cuts_(frames_, scene.frameCount),
       hairs_(std::move(hairs)),
       frameCount_(frameCount) {
+  if (hairs_ && hairs_->areOwn() && !scene.level->sample.empty()) followWatch_.emplace(scene);
   if (options.writesSheet) sheet_.emplace(scene.groom, scene.frameCount, options.up, solidsOf(scene.bodies));
 }
 
@@ -71,6 +72,7 @@ UsdExtras RunWriters::usdExtras() const {
                    .originValues = has("groom"),
                    .originPrims = options_.usesGroomPrims};
   if (extras.unreal) addGroups(extras);
+  if (extras.unreal && hairs_) extras.closestGuides = hairs_->closestGuides();
   extras.widthFactors.assign(scene_.widthFactors.begin(), scene_.widthFactors.end());
   if (hairs_ && !hairs_->areOwn() && !extras.widthFactors.empty()) {
     extras.widthFactors.clear();
@@ -111,11 +113,12 @@ Status RunWriters::addFrame(int frame, std::vector<Vec3f> points, const HeadPose
   if (sheet_) sheet_->offer(frame, points, placesOf(bodies), cuts_.cutBeyond(frame, scene_.groom.firstPoint));
   lastPoints_ = std::move(points);
   const UsdTransform place = rigidTransform(head.rotation, head.position / scene_.groom.metresPerUnit);
-  if (hairs_ && !animations_.empty()) {
+  if (hairs_ && (followWatch_ || !animations_.empty())) {
     const double seconds = frames_.secondsAt(frame);
     const std::vector<Vec3d> roots = hairs_->rootsAt(seconds, scene_.motion.poseAt(seconds));
     const auto bodyPoints = frames_.bodyPointsAt(frame);
     if (Status moved = hairs_->follow({lastPoints_, bodies, bodyPoints, roots}); !moved) return moved;
+    if (followWatch_) followWatch_->look(lastPoints_, hairs_->groom().points);
   }
   const std::vector<Vec3f>& shown = hairs_ ? hairs_->groom().points : lastPoints_;
   for (const auto& animation : animations_) {
@@ -133,6 +136,7 @@ Status RunWriters::sync() {
 
 void RunWriters::archive(Archive& archive) {
   if (sheet_) sheet_->archive(archive);
+  if (followWatch_) followWatch_->archive(archive);
 }
 
 Result<std::vector<std::filesystem::path>> RunWriters::finish() {

@@ -14,6 +14,7 @@
 #include "ringlet/groom/groom.h"
 #include "ringlet/output/animation_writer.h"
 #include "ringlet/output/sheet.h"
+#include "ringlet/pictures/follow_watch.h"
 #include "ringlet/pictures/full_hair.h"
 #include "ringlet/run/run_options.h"
 #include "ringlet/scenes/frames/cut_list.h"
@@ -45,6 +46,11 @@ class RunWriters {
   /// Largest distance of a point of an animation from its particle [m]; none if all files have full
   /// precision.
   std::optional<double> errorBound() const;
+  /// How far hairs that follow are from where they would be; none if none is simulated as well.
+  std::optional<FollowNumbers> followNumbers() const {
+    return followWatch_ ? followWatch_->numbers() : std::nullopt;
+  }
+  std::size_t hairCount() const { return hairs_ ? hairs_->groom().strandCount() : 0; }  // that follow
 
  private:
   Status open();
@@ -56,6 +62,7 @@ class RunWriters {
   SceneFrames frames_;
   CutList cuts_;  // of strands
   std::optional<FullHair> hairs_;
+  std::optional<FollowWatch> followWatch_;
   int frameCount_;
   bool isOpen_ = false;
   std::vector<std::unique_ptr<AnimationWriter>> animations_;

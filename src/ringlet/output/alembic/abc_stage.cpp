@@ -15,6 +15,8 @@
 namespace ringlet {
 namespace {
 
+constexpr const char* kClosestGuides = "groom_closest_guides";
+
 constexpr std::string_view kAbcPrimvar = "primvars:", kAbcOfGroom = "userProperties:",
                            kAbcIndices = ":indices";
 constexpr char kMatrixOp = 3 << 4;  // a matrix, which nothing says more of
@@ -88,6 +90,7 @@ AbcOutProperty abcParamOf(std::string name, const UsdStageAttribute& attribute,
   AbcOutProperty param{.name = std::move(name), .kind = AbcKind::array, .type = abcTypeOf(usdType->kind())};
   if (param.name == "width") param.type = AbcType::f32;                    // of floats, whatever the file had
   if (param.name.starts_with("groom_version")) param.type = AbcType::i16;  // as Unreal's schema has it
+  if (param.name == kClosestGuides) param.type = AbcType::i32;
   param.width = static_cast<unsigned>(usdType->width());
   param.values = abcValuesOf(attribute, param.type);
   const std::string_view meaning = abcMeaningOf(attribute.type, param.width);
@@ -111,6 +114,21 @@ std::string abcNameOf(const UsdStageAttribute& attribute) {
   const bool isOfPairs = attribute.type.starts_with("texCoord2f") || attribute.type.starts_with("float2");
   if (name == "st" && isOfPairs && abcScopeOf(attribute) == "uni") return "uv";
   return std::string(attribute.name == "widths" ? "width" : name);
+}
+
+// The guides of each strand by their ids, and their shares: three integers are no type of USD.
+void addClosestGuides(const std::vector<ClosestGuides>& closest, std::vector<UsdStageAttribute>& attributes) {
+  const auto ids = std::ranges::find(attributes, "primvars:groom_id", &UsdStageAttribute::name);
+  if (closest.empty() || ids == attributes.end()) return;
+  UsdStageAttribute guides{.name = kClosestGuides, .type = "float3[]", .interpolation = "uniform"};
+  UsdStageAttribute shares{
+      .name = "groom_guide_weights", .type = "float3[]", .interpolation = "uniform"};
+  for (const ClosestGuides& each : closest) {
+    for (const std::uint32_t strand : each.strands) guides.numbers.push_back(ids->numbers[strand]);
+    for (const float share : each.shares) shares.numbers.push_back(static_cast<double>(share));
+  }
+  attributes.push_back(std::move(guides));
+  attributes.push_back(std::move(shares));
 }
 
 // All that does not move, of one prim's attributes.
@@ -153,7 +171,7 @@ void addAbcTransform(std::vector<AbcOutProperty>& transform) {
 AbcStage abcStageOf(const Groom& topology, const AnimationOptions& options) {
   AnimationOptions own = options;
   own.usd.originPrims = false;
-  const HairStage hair = hairStageOf(topology, own);
+  HairStage hair = hairStageOf(topology, own);
   AbcStage stage{.archive = abcHairOf(topology), .margin = hair.curves.front().margin};
   AbcOutArchive& archive = stage.archive;
   archive.metadata += fmt::format(";{}={};{}={};{}={}", kAbcRate, options.framesPerSecond, kAbcUnit,
@@ -178,7 +196,9 @@ AbcStage abcStageOf(const Groom& topology, const AnimationOptions& options) {
                         .sampleBytes = pointBytes,
                         .isCounted = true,
                         .comesLater = true});
-  addAbcParams(hair.stage.prims.front().attributes, geometry);
+  std::vector<UsdStageAttribute>& attributes = hair.stage.prims.front().attributes;
+  if (options.usd.unreal) addClosestGuides(options.usd.closestGuides, attributes);
+  addAbcParams(attributes, geometry);
   return stage;
 }
 

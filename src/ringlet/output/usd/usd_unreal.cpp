@@ -103,6 +103,15 @@ class UnrealValues {
     add(std::move(texts));
   }
 
+  // 1 of strands that others follow.
+  void addGuides(const std::vector<ClosestGuides>& closest, std::uint32_t firstStrand) {
+    if (closest.empty()) return;
+    UsdStageAttribute guides{.name = "primvars:groom_guide", .type = "int[]", .interpolation = "uniform"};
+    for (std::size_t s = firstStrand; s < firstStrand + strandCount(); ++s)
+      guides.numbers.push_back(closest[s].strands[0] == s ? 1 : 0);
+    add(std::move(guides));
+  }
+
   void addVersion() {
     const auto number = [](const char* name, double value) {
       return UsdStageAttribute{.name = name, .type = "int", .numbers = {value}};
@@ -144,6 +153,7 @@ void addUnreal(const Groom& topology, const HairCurves& curves, const UsdExtras&
   UnrealValues values(topology, curves, said, prim);
   values.widen();
   values.addGroups(extras.groupOf, extras.groupNames, curves.firstStrand);
+  values.addGuides(extras.closestGuides, curves.firstStrand);
   values.carry();
   values.addIds(curves.firstStrand);
   values.addRootUvs();

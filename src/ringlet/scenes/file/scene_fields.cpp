@@ -90,6 +90,10 @@ std::span<const SceneField<SceneGroom>> groomFields() {
       {"guides_primvar", "", "none",
        "Primvar of the groom's file, such as groom_guide, that is not 0 for the strands that are guides.",
        &G::guidesPrimvar, {}, "", "file"},
+      {"guides_sample", "", "",
+       "Number of hairs that are simulated beside the guides, to measure how far hairs that follow are from "
+       "where they would be: follow_error of the report.",
+       &G::guidesSample, {0, 1e6}},
       {"scale",
        "1",
        "",

@@ -66,6 +66,7 @@ struct SceneGroom {
   int guides = 0;
   std::filesystem::path guidesFile{};
   std::string guidesPrimvar{};
+  int guidesSample = 0;  // other strands that are simulated as well, to measure how well they follow
 
   // Into the head's frame, or the world: scaled, then turned, then moved.
   double scale = 1;

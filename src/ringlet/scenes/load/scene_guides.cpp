@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "ringlet/base/quoted.h"
@@ -18,53 +20,57 @@ namespace {
 
 using Guides = std::vector<std::uint32_t>;
 
-// The same runs of strands, by the numbers that guides have among themselves.
-std::vector<StrandRun> runsAmong(const Guides& guides, std::span<const StrandRun> runs) {
+// The strands of the groom that are simulated: guides, and after them the sample.
+using Simulated = std::vector<std::uint32_t>;
+
+// The same runs of strands, by the numbers of those that are simulated.
+std::vector<StrandRun> runsAmong(const Simulated& simulated, std::span<const StrandRun> runs) {
   std::vector<StrandRun> among;
-  for (const StrandRun& run : runs) {
-    const auto first = std::ranges::lower_bound(guides, run.first) - guides.begin();
-    const auto end = std::ranges::upper_bound(guides, run.last) - guides.begin();
-    if (first < end)
-      among.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end - 1), run.factor});
+  for (std::uint32_t k = 0; k < simulated.size(); ++k) {
+    const auto next = std::ranges::upper_bound(runs, simulated[k], {}, &StrandRun::first);
+    if (next == runs.begin() || simulated[k] > std::prev(next)->last) continue;
+    const float factor = std::prev(next)->factor;
+    if (!among.empty() && among.back().last + 1 == k && among.back().factor == factor)
+      among.back().last = k;
+    else
+      among.push_back({k, k, factor});
   }
   return among;
 }
 
-std::vector<float> factorsAmong(const Guides& guides, std::span<const float> factors) {
+std::vector<float> factorsAmong(const Simulated& simulated, std::span<const float> factors) {
   std::vector<float> among;
   if (factors.empty()) return among;
-  for (const std::uint32_t s : guides) among.push_back(factors[s]);
+  for (const std::uint32_t s : simulated) among.push_back(factors[s]);
   return among;
 }
 
-std::vector<ContactBundle> bundlesAmong(const Guides& guides, std::span<const ContactBundle> bundles) {
+std::vector<ContactBundle> bundlesAmong(const Simulated& simulated, std::span<const ContactBundle> bundles) {
   std::vector<ContactBundle> among;
   for (const ContactBundle& bundle : bundles) {
+    const std::set<std::uint32_t> members(bundle.begin(), bundle.end());
     ContactBundle own;
-    for (const std::uint32_t s : bundle) {
-      const auto guide = std::ranges::lower_bound(guides, s);
-      if (guide != guides.end() && *guide == s)
-        own.push_back(static_cast<std::uint32_t>(guide - guides.begin()));
-    }
+    for (std::uint32_t k = 0; k < simulated.size(); ++k)
+      if (members.count(simulated[k])) own.push_back(k);
     if (!own.empty()) among.push_back(std::move(own));
   }
   return among;
 }
 
-void takeFactors(const Guides& guides, LoadedScene& loaded) {
+void takeFactors(const Simulated& simulated, LoadedScene& loaded) {
   for (StrandFactors& factors : loaded.material.factors)
-    factors.runs = std::make_shared<const std::vector<StrandRun>>(runsAmong(guides, *factors.runs));
+    factors.runs = std::make_shared<const std::vector<StrandRun>>(runsAmong(simulated, *factors.runs));
   std::erase_if(loaded.material.factors, [](const StrandFactors& factors) { return factors.runs->empty(); });
   ContactSettings& contacts = loaded.settings.contacts;
   if (contacts.bundles)
     contacts.bundles =
-        std::make_shared<const std::vector<ContactBundle>>(bundlesAmong(guides, *contacts.bundles));
+        std::make_shared<const std::vector<ContactBundle>>(bundlesAmong(simulated, *contacts.bundles));
   if (contacts.bundles && contacts.bundles->empty()) contacts.bundles = nullptr;
   if (contacts.radiusFactors)
     contacts.radiusFactors =
-        std::make_shared<const std::vector<float>>(factorsAmong(guides, *contacts.radiusFactors));
-  loaded.hairs.densities = factorsAmong(guides, loaded.hairs.densities);
-  loaded.hairs.clumps = factorsAmong(guides, loaded.hairs.clumps);
+        std::make_shared<const std::vector<float>>(factorsAmong(simulated, *contacts.radiusFactors));
+  loaded.hairs.densities = factorsAmong(simulated, loaded.hairs.densities);
+  loaded.hairs.clumps = factorsAmong(simulated, loaded.hairs.clumps);
 }
 
 Result<Guides> guidesOfPrimvar(const SceneGroom& scene, std::size_t strandCount) {
@@ -111,6 +117,9 @@ Status checkGuides(const SceneFile& scene) {
   };
   if (!scene.cuts.empty()) return refuse("[[cut]]");
   if (!scene.timeKeys.empty() && !scene.maps.empty()) return refuse("a [[map]] beside keys over time");
+  if (ways == 0 && groom.guidesSample > 0)
+    return Error{"groom.guides_sample has no effect without guides; expected one of guides, guides_file and "
+                 "guides_primvar"};
   if (groom.guidesFile.empty()) return {};
   if (!scene.maps.empty()) return refuse("a [[map]]: they have a file of their own");
   if (!scene.groups.empty()) return refuse("a [[group]]: they have a file of their own");
@@ -135,7 +144,12 @@ Result<std::optional<Groom>> readGuides(const SceneGroom& scene, double metresPe
 Status takeGuides(const SceneFile& scene, std::size_t ofFile, LoadedScene& loaded) {
   auto level = levelOf(scene.groom, loaded.groom, ofFile);
   if (!level) return level.error();
-  if (ofFile == 0) takeFactors(level->guides, loaded);
+  level->addSample(loaded.groom, static_cast<std::size_t>(scene.groom.guidesSample));
+  if (ofFile == 0) {
+    Simulated simulated = level->guides;
+    simulated.insert(simulated.end(), level->sample.begin(), level->sample.end());
+    takeFactors(simulated, loaded);
+  }
   loaded.groom = level->groom;
   loaded.geometry = nullptr;  // it was that of all strands
   loaded.level = std::make_shared<const LevelOfDetail>(std::move(*level));
