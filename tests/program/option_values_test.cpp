@@ -41,7 +41,8 @@ TEST(OptionValues, AreRefusedWhereTheyAreNone) {
   const std::set<std::string> any{"ringlet render --camera",  "ringlet simulate --animation",
                                   "ringlet simulate --joint", "ringlet kernels --only",
                                   "ringlet kernels --shapes", "ringlet sweep --only",
-                                  "ringlet sweep --vary"};
+                                  "ringlet sweep --vary",      "ringlet simulate --guides-primvar",
+                                  "ringlet view --guides-primvar"};
   int refused = 0;
   eachOption(app, "ringlet", [&](CLI::Option& option, const std::string& name) {
     const bool isRefused = !refusal(option).empty();

@@ -44,7 +44,7 @@ def parameters_of_module(function):
     """The same from the first line of what pybind11 writes."""
     line = function.__doc__.split("\n")[0]
     inside = re.fullmatch(r"\w+\((.*)\) -> .*", line).group(1)
-    inside = re.sub(r": (?:[\w.]+(?:\[[^\]]*\](?:\])?)?)", "", inside)
+    inside = re.sub(r": (?:[\w.]+(?:\[[^\]]*\]+)?)", "", inside)
     inside = inside.replace("**kwargs", "**kwargs")
     tree = ast.parse(f"def f({inside}): pass").body[0]
     found = parameters_of_stub(tree)

@@ -115,11 +115,12 @@ Status checkGuides(const SceneFile& scene) {
   const auto refuse = [](const char* what) {
     return Error{fmt::format("guides do not go together with {}, which names strands of the groom", what)};
   };
-  if (!scene.cuts.empty()) return refuse("[[cut]]");
-  if (!scene.timeKeys.empty() && !scene.maps.empty()) return refuse("a [[map]] beside keys over time");
   if (ways == 0 && groom.guidesSample > 0)
     return Error{"groom.guides_sample has no effect without guides; expected one of guides, guides_file and "
                  "guides_primvar"};
+  if (ways == 0) return {};
+  if (!scene.cuts.empty()) return refuse("[[cut]]");
+  if (!scene.timeKeys.empty() && !scene.maps.empty()) return refuse("a [[map]] beside keys over time");
   if (groom.guidesFile.empty()) return {};
   if (!scene.maps.empty()) return refuse("a [[map]]: they have a file of their own");
   if (!scene.groups.empty()) return refuse("a [[group]]: they have a file of their own");
