@@ -143,8 +143,9 @@ std::vector<Vec3d> followGuide(const FollowHair& hair, const GuidePose& guide, s
   for (std::size_t i = 0; i <= last; ++i) {
     const double along = alongGuide(i, hair, last, own);
     const double share =
-        own.empty() ? static_cast<double>(i) / static_cast<double>(last)
-                    : std::min(along / (static_cast<double>(hair.length) * static_cast<double>(lastOfGuide)), 1.0);
+        own.empty()
+            ? static_cast<double>(i) / static_cast<double>(last)
+            : std::min(along / (static_cast<double>(hair.length) * static_cast<double>(lastOfGuide)), 1.0);
     HairPoint point{{}, root, share, {besideOf(guide, along, 1)}};
     const GuidePlace<double> beside = point.guides.front().place();
     point.x = followedPoint(hair, beside, rootOffset, share);
@@ -159,8 +160,9 @@ std::vector<Vec3d> followGuide(const FollowHair& hair, const GuidePose& guide, s
       const Beside besideIt =
           besideOf(*others[k], along / static_cast<double>(lastOfGuide) * itsLast, weight);
       const Vector3<double> fromIts = root - pointOf(others[k]->places.front());
-      point.x += weight * (blendedPoint(hair, toEigen<double>(other.offset), besideIt.place(), fromIts, share) -
-                           withOwn);
+      point.x +=
+          weight *
+          (blendedPoint(hair, toEigen<double>(other.offset), besideIt.place(), fromIts, share) - withOwn);
       point.guides.front().weight -= weight;
       point.guides.push_back(besideIt);
     }

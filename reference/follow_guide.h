@@ -31,12 +31,12 @@ using OtherPoses = std::array<const GuidePose*, 2>;
 /// it [m], or as before the first frame where there are none; of cloth a grain.
 std::vector<Body> bodiesMetAt(std::span<const Body> bodies, std::span<const std::vector<Vec3d>> points);
 
-/// The points of a hair [m]: `own`, or where it is empty as many as its guide's; out of bodies at `poses`, one
-/// a body. `rootOnScalp`: where its root is in this pose [m]; none: where the head carries it.
+/// The points of a hair [m]: `own`, or where it is empty as many as its guide's; out of bodies at `poses`,
+/// one a body. `rootOnScalp`: where its root is in this pose [m]; none: where the head carries it.
 std::vector<Vec3d> followGuide(const FollowHair& hair, const GuidePose& guide,
                                std::span<const Body> bodies = {}, std::span<const BodyPose> poses = {},
-                               std::optional<Vec3d> rootOnScalp = std::nullopt,
-                               const OtherPoses& others = {}, std::span<const OwnPoint> own = {});
+                               std::optional<Vec3d> rootOnScalp = std::nullopt, const OtherPoses& others = {},
+                               std::span<const OwnPoint> own = {});
 
 /// The same with all guides' poses.
 std::vector<Vec3d> followGuides(const FollowHair& hair, std::span<const GuidePose> guides,

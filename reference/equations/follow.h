@@ -18,8 +18,8 @@
 // Beyond the first fifth the hair has the curl of guide 1 about the blended core. At the root every y_j is
 // the hair's root, as e_j goes from guide j's root to it: there nothing moves.
 //
-// A hair of a groom has its own shape at rest and its own points (OwnPoints): x moves by F q beside it, with q
-// what at rest is left between the hair's point and where the above has it, along F.
+// A hair of a groom has its own shape at rest and its own points (OwnPoints): x moves by F q beside it, with
+// q what at rest is left between the hair's point and where the above has it, along F.
 //
 // Bodies hold guides out, and hairs are beside them. With d_x, D, D_root the distances of the body's surface
 // from the point, from the guide beside it (between two particles, what is between theirs, since particles

@@ -88,7 +88,8 @@ class FollowersObject {
         own.metresPerUnit != groom.metresPerUnit)
       throw py::value_error("this hair is not of level.groom: make its asset of that");
     return hair.ask([&](Simulation& simulation) {
-      return valueOf(Followers::create(asset.device->device, simulation, groom, level.level.hairs, {}, level.level.own));
+      return valueOf(
+          Followers::create(asset.device->device, simulation, groom, level.level.hairs, {}, level.level.own));
     });
   }
 
@@ -102,10 +103,11 @@ void addLevel(py::module_& module) {
   py::class_<LevelObject, LevelHandle>(
       module, "LevelOfDetail",
       "Some of a groom's strands, its guides, and how all others follow them. Constant.")
-      .def(py::init(&makeLevel), py::arg("groom").none(false), py::arg("share") = py::none(), py::kw_only(),
-           py::arg("guides") = py::none(),
-           "share: of strands that are picked, above 0, at most 1; or guides: their number, or which strands. "
-           "ringlet.Error for a strand without length.")
+      .def(
+          py::init(&makeLevel), py::arg("groom").none(false), py::arg("share") = py::none(), py::kw_only(),
+          py::arg("guides") = py::none(),
+          "share: of strands that are picked, above 0, at most 1; or guides: their number, or which strands. "
+          "ringlet.Error for a strand without length.")
       .def_property_readonly(
           "groom", [](const LevelObject& self) { return self.groom; },
           "The Groom of the strands that are simulated: what an Asset is made of.")

@@ -104,7 +104,8 @@ OwnPoints anyOwnPoints(const Plan& plan) {
     const auto last = static_cast<float>(plan.guides[plan.hairs[h].guide].arcs.size() - 1);
     const std::size_t count = 2 + 7 * h % 90;
     std::vector<float> steps{0};
-    for (std::size_t i = 1; i < count; ++i) steps.push_back(steps.back() + std::max(step(random) - 0.1f, 0.f));
+    for (std::size_t i = 1; i < count; ++i)
+      steps.push_back(steps.back() + std::max(step(random) - 0.1f, 0.f));
     for (const float at : steps)
       own.points.push_back({.shift = {shift(random), shift(random), shift(random)},
                             .along = last * plan.hairs[h].length * at / std::max(steps.back(), 0.1f)});
@@ -183,8 +184,8 @@ std::vector<Vec3d> followIn(FollowStage& stage, gpu::Device& device, const Plan&
 }
 std::vector<Vec3d> followOn(gpu::Device& device, const Plan& plan, const std::vector<Strand>& pose,
                             Quatd head, const Following& following = {}) {
-  auto stage =
-      FollowStage::create(device, plan.guides, plan.hairs, following.met.bodies, !following.roots.empty(), plan.own);
+  auto stage = FollowStage::create(device, plan.guides, plan.hairs, following.met.bodies,
+                                   !following.roots.empty(), plan.own);
   EXPECT_TRUE(stage) << stage.error().message;
   return followIn(*stage, device, plan, pose, head, following);
 }
@@ -200,7 +201,8 @@ std::vector<double> differences(const Plan& plan, const std::vector<Strand>& pos
     guides.push_back(reference::poseGuide(plan.guides[g], pose[g], head));
   for (std::size_t h = 0; h < plan.hairs.size(); ++h) {
     const auto root = roots.empty() ? std::nullopt : std::optional(roots[h]);
-    for (const Vec3d& expected : reference::followGuides(plan.hairs[h], guides, bodies, met.poses, root, plan.own.of(h)))
+    for (const Vec3d& expected :
+         reference::followGuides(plan.hairs[h], guides, bodies, met.poses, root, plan.own.of(h)))
       all.push_back(length(expected - found.at(all.size())));
   }
   EXPECT_EQ(all.size(), found.size());
@@ -552,14 +554,15 @@ TEST_F(FollowStageTest, EachInputIsSetBySomeCase) {
   const Guides all = allGuides().back(), curls = allGuides().front();
   {
     KernelSpy spy(**opened);
-    for (const InputsCase& c : {InputsCase{"hair of every kind", all, 300, 0, {}},
-                                InputsCase{"curls, turned", curls, 200, 0, kTurned},
-                                InputsCase{"three guides", all, 300, 1, kTurned},
-                                InputsCase{"three guides among bodies", all, 300, 1, kTurned, 6},
-                                InputsCase{"on a scalp among bodies", curls, 200, 1, {}, 2, true},
-                                InputsCase{"cut among bodies", all, 300, 0, kTurned, 6, false, true},
-                                InputsCase{"points of their own", all, 300, 0, kTurned, 6, false, false, true},
-                                InputsCase{"likewise of three guides", all, 300, 1, {}, 0, false, false, true}}) {
+    for (const InputsCase& c :
+         {InputsCase{"hair of every kind", all, 300, 0, {}},
+          InputsCase{"curls, turned", curls, 200, 0, kTurned},
+          InputsCase{"three guides", all, 300, 1, kTurned},
+          InputsCase{"three guides among bodies", all, 300, 1, kTurned, 6},
+          InputsCase{"on a scalp among bodies", curls, 200, 1, {}, 2, true},
+          InputsCase{"cut among bodies", all, 300, 0, kTurned, 6, false, true},
+          InputsCase{"points of their own", all, 300, 0, kTurned, 6, false, false, true},
+          InputsCase{"likewise of three guides", all, 300, 1, {}, 0, false, false, true}}) {
       spy.onDone = [&](const SpiedCommands& commands) { inputs.look(spy, commands, c.name); };
       runCase(**opened, c);
     }

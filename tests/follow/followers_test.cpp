@@ -111,7 +111,8 @@ TEST_F(FollowersTest, AreWhereTheReferenceSays) {
     seen[0].position -= head.position;
     std::vector<reference::GuidePose> poses;
     for (std::size_t g = 0; g < level->groom.strandCount(); ++g) {
-      const auto strand = std::span(guides).subspan(level->groom.firstPoint[g], level->groom.strand(g).size());
+      const auto strand =
+          std::span(guides).subspan(level->groom.firstPoint[g], level->groom.strand(g).size());
       const std::vector<Vec3d> rest = metresOf(level->groom, g);
       std::vector<Vec3d> pose;
       for (const Vec3f& p : strand) pose.push_back(Vec3d(p));

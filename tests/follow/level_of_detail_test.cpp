@@ -24,7 +24,8 @@ std::vector<Vec3d> metresOf(const Groom& groom, std::size_t strand) {
   return points;
 }
 
-// From the groom's points those that hairs have while their guides are at rest, as the reference has them [m].
+// From the groom's points those that hairs have while their guides are at rest, as the reference has them
+// [m].
 double farthestAtRest(const Groom& groom, const LevelOfDetail& level) {
   std::vector<reference::GuidePose> poses;
   for (std::size_t g = 0; g < level.groom.strandCount(); ++g) {
@@ -34,8 +35,7 @@ double farthestAtRest(const Groom& groom, const LevelOfDetail& level) {
   double farthest = 0;
   for (std::size_t s = 0; s < groom.strandCount(); ++s) {
     const std::vector<Vec3d> wanted = metresOf(groom, s);
-    const auto found =
-        reference::followGuides(level.hairs[s], poses, {}, {}, std::nullopt, level.own.of(s));
+    const auto found = reference::followGuides(level.hairs[s], poses, {}, {}, std::nullopt, level.own.of(s));
     EXPECT_EQ(found.size(), wanted.size());
     for (std::size_t i = 0; i < wanted.size(); ++i)
       farthest = std::max(farthest, length(found[i] - wanted[i]));

@@ -57,10 +57,10 @@ const Fixture& guides() {
 }
 
 const std::vector<Strand>& hairs() {
-  static const std::vector<Strand> all{
-      strandOf(64, 0.25, 6, {0.004, 0, 0.003}), strandOf(97, 0.1, 9, {0.01, 0.001, 0}, 1.5),
-      strandOf(8, 0.4, 1, {0.005, 0, 0.01}),    strandOf(2, 0.2, 0, {0, 0, 0}),
-      strandOf(5, 0.25, 0, {0.02, 0, 0.001}, 2)};
+  static const std::vector<Strand> all{strandOf(64, 0.25, 6, {0.004, 0, 0.003}),
+                                       strandOf(97, 0.1, 9, {0.01, 0.001, 0}, 1.5),
+                                       strandOf(8, 0.4, 1, {0.005, 0, 0.01}), strandOf(2, 0.2, 0, {0, 0, 0}),
+                                       strandOf(5, 0.25, 0, {0.02, 0, 0.001}, 2)};
   return all;
 }
 

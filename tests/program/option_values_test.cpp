@@ -38,11 +38,10 @@ TEST(OptionValues, AreRefusedWhereTheyAreNone) {
   addCommands(app, exitCode);
   // Paths and devices, by what help calls them; then names that a file has, and lists that the command reads.
   const std::set<std::string> anyOfType{"FILE", "PATH", "DIR", "FOLDER", "RUN", "GROOM", "D", "D,D"};
-  const std::set<std::string> any{"ringlet render --camera",  "ringlet simulate --animation",
-                                  "ringlet simulate --joint", "ringlet kernels --only",
-                                  "ringlet kernels --shapes", "ringlet sweep --only",
-                                  "ringlet sweep --vary",      "ringlet simulate --guides-primvar",
-                                  "ringlet view --guides-primvar"};
+  const std::set<std::string> any{
+      "ringlet render --camera", "ringlet simulate --animation",      "ringlet simulate --joint",
+      "ringlet kernels --only",  "ringlet kernels --shapes",          "ringlet sweep --only",
+      "ringlet sweep --vary",    "ringlet simulate --guides-primvar", "ringlet view --guides-primvar"};
   int refused = 0;
   eachOption(app, "ringlet", [&](CLI::Option& option, const std::string& name) {
     const bool isRefused = !refusal(option).empty();

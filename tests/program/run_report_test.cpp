@@ -175,13 +175,27 @@ TEST(RunReport, WhatIsNotKnownIsNull) {
       EXPECT_EQ(value, whole[key]) << key;
   }
   EXPECT_EQ(found.size(), whole.size());
-  EXPECT_EQ(nulls,
-            (std::set<std::string>{"velocity_residual", "volume_strands", "contact_particles", "contacts",
-                                   "pairs_unpruned", "pairs", "pair_tests", "rebuilds", "momentum_error",
-                                   "volume_cut", "volume_largest", "raw_recall", "overlap_beyond_rest_sum",
-                                   "deepest_overlap_all", "crossings", "deepest_penetration_mm",
-                                   "inside_bodies", "device_bytes", "cache_error_bound_m", "follow_error",
-                                   "follow_error_worst"}));
+  EXPECT_EQ(nulls, (std::set<std::string>{"velocity_residual",
+                                          "volume_strands",
+                                          "contact_particles",
+                                          "contacts",
+                                          "pairs_unpruned",
+                                          "pairs",
+                                          "pair_tests",
+                                          "rebuilds",
+                                          "momentum_error",
+                                          "volume_cut",
+                                          "volume_largest",
+                                          "raw_recall",
+                                          "overlap_beyond_rest_sum",
+                                          "deepest_overlap_all",
+                                          "crossings",
+                                          "deepest_penetration_mm",
+                                          "inside_bodies",
+                                          "device_bytes",
+                                          "cache_error_bound_m",
+                                          "follow_error",
+                                          "follow_error_worst"}));
 }
 
 TEST(RunReport, TheTextHasTheSameNumbers) {

@@ -86,8 +86,8 @@ double farthestAtRest(const LoadedScene& guided, const Groom& whole) {
   EXPECT_EQ(guided.level->own.firstPoint, whole.firstPoint);
   double farthest = 0;
   for (std::size_t s = 0; s < whole.strandCount(); ++s) {
-    const auto found = reference::followGuides(guided.level->hairs[s], poses, {}, {}, std::nullopt,
-                                               guided.level->own.of(s));
+    const auto found =
+        reference::followGuides(guided.level->hairs[s], poses, {}, {}, std::nullopt, guided.level->own.of(s));
     const auto wanted = metresOf(whole, s);
     for (std::size_t i = 0; i < wanted.size(); ++i)
       farthest = std::max(farthest, length(found[i] - wanted[i]));

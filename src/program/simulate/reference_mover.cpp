@@ -46,7 +46,8 @@ class ReferenceMover : public FollowMover {
         const std::size_t h = order_[k];
         const auto root = pose.roots.empty() ? std::nullopt : std::optional(pose.roots[h]);
         std::uint32_t at = plan_.firstPoint()[h];
-        for (const Vec3d& p : reference::followGuides(plan_.hairs()[h], poses, met, pose.bodies, root, plan_.own().of(h)))
+        for (const Vec3d& p :
+             reference::followGuides(plan_.hairs()[h], poses, met, pose.bodies, root, plan_.own().of(h)))
           hairs[at++] = Vec3f(p / plan_.metresPerUnit());
       }
     };

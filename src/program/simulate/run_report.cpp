@@ -79,7 +79,8 @@ std::string runText(const RunNames& names, const Settings& settings, const RunOu
                 : "\n";
   }
   if (outcome.hairCount > 0) {
-    text += fmt::format("  hairs         {} follow the strands and are written in their place", outcome.hairCount);
+    text += fmt::format("  hairs         {} follow the strands and are written in their place",
+                        outcome.hairCount);
     if (const auto& follow = outcome.follow)
       text += fmt::format(
           ": {:.2g} % of their length from where they would be, {:.2g} % at worst ({} were simulated too)",

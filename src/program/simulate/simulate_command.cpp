@@ -351,11 +351,11 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
   addConfinedOption(*command, typed->reach);
 
   addSetOption(*command, typed->keys);
-  addOptionsOfKeys(*command, typed->keys,
-                   {"groom.unit", "groom.up", "groom.root_end", "groom.points_per_strand", "groom.guides",
-                    "groom.guides_file", "groom.guides_primvar", "groom.guides_sample", "groom.bind",
-                    "groom.bind_frame"},
-                   "Groom");
+  addOptionsOfKeys(
+      *command, typed->keys,
+      {"groom.unit", "groom.up", "groom.root_end", "groom.points_per_strand", "groom.guides",
+       "groom.guides_file", "groom.guides_primvar", "groom.guides_sample", "groom.bind", "groom.bind_frame"},
+      "Groom");
   addMotionOptions(*command, typed->keys);
   addSimulationOptions(*command, typed->keys);
 

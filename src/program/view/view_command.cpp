@@ -97,8 +97,7 @@ Status addHairs(const LoadedScene& scene, int hairs, const HairLook& look, view:
   const int frames = static_cast<int>(std::ceil(lastCut * scene.settings.framesPerSecond)) + 1;
   auto follow = FollowPlan::ofScene(scene, hairs, look, CutList(SceneFrames(scene), frames));
   if (!follow) return follow.error();
-  const auto count =
-      static_cast<double>(*follow ? (*follow)->hairs().size() : scene.groom.strandCount());
+  const auto count = static_cast<double>(*follow ? (*follow)->hairs().size() : scene.groom.strandCount());
   plan.look.width = std::min(widthOfHairs(count), view::kMostStrandWidth);
   if (!*follow) return {};
   plan.look.follow = std::make_shared<const FollowPlan>(std::move(**follow));
@@ -200,8 +199,8 @@ void addViewCommand(CLI::App& app, int& exitCode) {
   command->add_option("IN", typed->input, "A scene (.toml) or a groom")->required()->type_name("PATH");
   addSetOption(*command, typed->keys);
   addOptionsOfKeys(*command, typed->keys,
-                   {"groom.unit", "groom.up", "groom.root_end", "groom.points_per_strand", "groom.guides", "groom.guides_file",
-                    "groom.guides_primvar"});
+                   {"groom.unit", "groom.up", "groom.root_end", "groom.points_per_strand", "groom.guides",
+                    "groom.guides_file", "groom.guides_primvar"});
   addConfinedOption(*command, typed->reach);
   addHairLookOptions(*command, typed->keys);
   command->add_option("--hairs", typed->hairs, "Hairs that follow the strands; 0: the strands themselves")

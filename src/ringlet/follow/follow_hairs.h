@@ -14,8 +14,8 @@
 
 namespace ringlet {
 
-/// A hair has as many points as its guide, or its own (OwnPoints). reference/equations/follow.h says where they
-/// are.
+/// A hair has as many points as its guide, or its own (OwnPoints). reference/equations/follow.h says where
+/// they are.
 struct FollowHair {
   std::uint32_t guide = 0;
   Vec3f offset{};    // of its root from the guide's, along GuideRest::frame: normal, binormal, tangent [m]

@@ -173,8 +173,7 @@ Status FollowStage::makeInside(gpu::Device& device) {
   return {};
 }
 
-Status FollowStage::makeKernels(gpu::Device& device, bool isOnScalp, bool areCut,
-                                bool haveOwn) {
+Status FollowStage::makeKernels(gpu::Device& device, bool isOnScalp, bool areCut, bool haveOwn) {
   gpu::BufferTable table = bodies_.bufferTable();
   const auto bind = [&](std::uint32_t number, const gpu::Buffer& buffer) {
     table.emplace(number, buffer);

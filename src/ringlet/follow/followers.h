@@ -38,7 +38,8 @@ class Followers {
   /// strand of that groom. `bodies`: that hairs stay out of where their strands do; they pass checkBody.
   /// `own`: of hairs that have points of their own (LevelOfDetail::own).
   /// Errors: a strand without length; the device lacks memory. Cost: the cores of all strands; 48 bytes a
-  /// hair, 96 where one follows several strands, and 16 a point of device memory, 32 with points of their own.
+  /// hair, 96 where one follows several strands, and 16 a point of device memory, 32 with points of their
+  /// own.
   static Result<Followers> create(const ComputeDevice& device, const Simulation& guides, const Groom& groom,
                                   std::span<const FollowHair> hairs, std::span<const Body> bodies = {},
                                   const OwnPoints& own = {});

@@ -22,7 +22,7 @@ namespace ringlet {
 namespace {
 
 constexpr std::size_t kCandidates = 4;  // guides that a strand is compared with
-constexpr std::size_t kFitPart = 64;       // strands that a thread takes at once
+constexpr std::size_t kFitPart = 64;    // strands that a thread takes at once
 constexpr double kFitFrom = 0.4;        // from here to the tip a hair is all in its guide's frame (follow.h)
 constexpr double kLeastLength = 0.05, kMostFitRadius = 4, kMostSpread = 4;  // of a fit
 constexpr double kLeastPart = 1e-6;  // of squares: less is rounding, and fits nothing
@@ -149,7 +149,9 @@ struct Candidates {
 
   const RestShape& own() const { return shapes[strand]; }
   const RestShape& guide(std::uint32_t number) const { return shapes[guides[number]]; }
-  double distance(std::uint32_t number) const { return std::sqrt(traits.apart(strand, guides[number])); }  // [m]
+  double distance(std::uint32_t number) const {
+    return std::sqrt(traits.apart(strand, guides[number]));
+  }  // [m]
 };
 
 // The candidate that fits best.
@@ -226,7 +228,8 @@ LevelOfDetail levelOf(const Groom& groom, std::span<const RestShape> shapes, con
 }  // namespace
 
 void LevelOfDetail::leaveOutGuides() {
-  RINGLET_ASSERT(!guides.empty() && guides.front() + guides.size() == hairs.size(), "guides are not the last");
+  RINGLET_ASSERT(!guides.empty() && guides.front() + guides.size() == hairs.size(),
+                 "guides are not the last");
   hairs.resize(guides.front());
   own.firstPoint.resize(guides.front() + 1);
   own.points.resize(own.firstPoint.back());

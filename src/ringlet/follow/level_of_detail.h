@@ -28,9 +28,9 @@ struct LevelOfDetail {
 
 /// Chooses `count` of the strands, or all (pickGuides). Every other strand follows the one of the four guides
 /// most like it that fits it best: turned, scaled and shortened in the least squares of its outer three
-/// fifths; the three nearest share its core, and what is left of its own shape goes along (OwnPoint). The same groom gives the same choice. Errors:
-/// a strand without length. Cost: n log n in strands and n times `count`, and the cores of all strands; on
-/// all processors.
+/// fifths; the three nearest share its core, and what is left of its own shape goes along (OwnPoint). The
+/// same groom gives the same choice. Errors: a strand without length. Cost: n log n in strands and n times
+/// `count`, and the cores of all strands; on all processors.
 Result<LevelOfDetail> levelOfDetailOfCount(const Groom& groom, std::size_t count);
 
 /// The same of a share of the strands, in (0, 1], at least one. Errors: also a share outside its range.

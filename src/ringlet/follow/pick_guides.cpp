@@ -63,9 +63,8 @@ std::vector<std::uint32_t> mostUnlike(const StrandTraits& strands, std::size_t c
   std::vector<double> apart(strands.count(), std::numeric_limits<double>::infinity());
   std::vector<std::uint32_t> picked{strands.middleOf(allOf(strands))};
   while (picked.size() < count) {
-    eachInParallel(coreCount(), strands.count(), kPickPart, [&](std::size_t s) {
-      apart[s] = std::min(apart[s], strands.apart(s, picked.back()));
-    });
+    eachInParallel(coreCount(), strands.count(), kPickPart,
+                   [&](std::size_t s) { apart[s] = std::min(apart[s], strands.apart(s, picked.back())); });
     for (const std::uint32_t each : picked) apart[each] = -1;
     picked.push_back(static_cast<std::uint32_t>(std::ranges::max_element(apart) - apart.begin()));
   }
@@ -107,8 +106,7 @@ std::uint32_t StrandTraits::middleOf(std::span<const std::uint32_t> members) con
   for (const std::uint32_t s : members)
     for (std::size_t k = 0; k < kSize; ++k) sums[k] += static_cast<double>(of(s)[k]);
   std::vector<float> mean;
-  for (const double sum : sums)
-    mean.push_back(static_cast<float>(sum / static_cast<double>(members.size())));
+  for (const double sum : sums) mean.push_back(static_cast<float>(sum / static_cast<double>(members.size())));
   return *std::ranges::min_element(members, {}, [&](std::uint32_t s) { return apart(of(s), mean); });
 }
 

@@ -10,7 +10,8 @@
 
 namespace ringlet {
 
-/// What makes two strands alike, for whoever follows whom: nine places along the core and the size of the curl.
+/// What makes two strands alike, for whoever follows whom: nine places along the core and the size of the
+/// curl.
 class StrandTraits {
  public:
   explicit StrandTraits(std::span<const RestShape> strands);

@@ -1,4 +1,5 @@
-// RestShape: a strand at rest as the hairs that follow it see it: its core, and its curl along the core's frames.
+// RestShape: a strand at rest as the hairs that follow it see it: its core, and its curl along the core's
+// frames.
 #pragma once
 
 #include <span>

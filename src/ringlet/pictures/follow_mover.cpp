@@ -50,7 +50,8 @@ class DeviceMover : public FollowMover {
 FollowMoverMaker followOn(ComputeDevice device) {
   return [device = std::move(device)](const FollowPlan& plan,
                                       std::span<const Body> bodies) -> Result<std::unique_ptr<FollowMover>> {
-    auto stage = FollowStage::create(device.gpu(), plan.guides(), plan.hairs(), bodies, plan.isOnScalp(), plan.own());
+    auto stage =
+        FollowStage::create(device.gpu(), plan.guides(), plan.hairs(), bodies, plan.isOnScalp(), plan.own());
     if (!stage) return stage.error();
     auto recorder = gpu::Recorder::create(device.gpu(), "hairs that follow strands");
     if (!recorder) return recorder.error();

@@ -1,5 +1,6 @@
 // FollowPlan: the many hairs that follow the strands of an animation, planned beside them or a groom's own:
-// which strand each follows, and where beside it; and the poses of a frame. FullHair (on the host) and pictures (on a device) move them.
+// which strand each follows, and where beside it; and the poses of a frame. FullHair (on the host) and
+// pictures (on a device) move them.
 #pragma once
 
 #include <cstdint>

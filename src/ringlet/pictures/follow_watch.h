@@ -9,16 +9,10 @@
 
 #include "ringlet/base/archive.h"
 #include "ringlet/base/vec3.h"
+#include "ringlet/measure/follow_numbers.h"
 #include "ringlet/scenes/load/load_scene.h"
 
 namespace ringlet {
-
-/// Distances as shares of a hair's length, over all frames.
-struct FollowNumbers {
-  std::size_t hairs = 0;  // that were measured
-  double rms = 0;         // of all their points
-  double worst = 0;       // of the hair whose points are farthest off, their root mean square in a frame
-};
 
 class FollowWatch {
  public:

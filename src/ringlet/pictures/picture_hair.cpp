@@ -48,8 +48,8 @@ Result<PictureHair> PictureHair::create(const ComputeDevice& device, const Groom
     auto plan = FollowPlan::make(rest, metresPerUnit, options, scene.ground, scene.cuts);
     if (!plan) return plan.error();
     if (Status belongs = plan->checkPose(first); !belongs) return belongs.error();
-    auto stage =
-        FollowStage::create(device.gpu(), plan->guides(), plan->hairs(), scene.bodies, plan->isOnScalp(), plan->own());
+    auto stage = FollowStage::create(device.gpu(), plan->guides(), plan->hairs(), scene.bodies,
+                                     plan->isOnScalp(), plan->own());
     if (!stage) return stage.error();
     self.plan_.emplace(std::move(*plan));
     self.hairs_.emplace(std::move(*stage));

@@ -11,7 +11,7 @@
 #include "ringlet/base/vec3.h"
 #include "ringlet/measure/body_watch.h"
 #include "ringlet/measure/contact_numbers.h"
-#include "ringlet/pictures/follow_watch.h"
+#include "ringlet/measure/follow_numbers.h"
 #include "ringlet/run/body_outcome.h"
 #include "ringlet/run/scene_hair.h"
 #include "ringlet/solver/diagnostics.h"

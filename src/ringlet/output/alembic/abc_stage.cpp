@@ -121,8 +121,7 @@ void addClosestGuides(const std::vector<ClosestGuides>& closest, std::vector<Usd
   const auto ids = std::ranges::find(attributes, "primvars:groom_id", &UsdStageAttribute::name);
   if (closest.empty() || ids == attributes.end()) return;
   UsdStageAttribute guides{.name = kClosestGuides, .type = "float3[]", .interpolation = "uniform"};
-  UsdStageAttribute shares{
-      .name = "groom_guide_weights", .type = "float3[]", .interpolation = "uniform"};
+  UsdStageAttribute shares{.name = "groom_guide_weights", .type = "float3[]", .interpolation = "uniform"};
   for (const ClosestGuides& each : closest) {
     for (const std::uint32_t strand : each.strands) guides.numbers.push_back(ids->numbers[strand]);
     for (const float share : each.shares) shares.numbers.push_back(static_cast<double>(share));

@@ -62,8 +62,8 @@ using SharedGeometry = std::shared_ptr<const std::vector<StrandGeometry>>;
 struct LoadedScene {
   Groom groom;                                   // what is simulated: all strands, or the guides
   std::shared_ptr<const LevelOfDetail> level{};  // of all hairs, where they follow guides
-  SharedGeometry geometry{};  // of the groom, where it had to be measured or was known
-  Material material;          // its dials worked in
+  SharedGeometry geometry{};                     // of the groom, where it had to be measured or was known
+  Material material;                             // its dials worked in
   Settings settings;
   Motion motion;
   std::vector<Vec3d> rootShifts{};  // as InitialState takes them

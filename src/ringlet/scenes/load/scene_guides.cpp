@@ -116,8 +116,9 @@ Status checkGuides(const SceneFile& scene) {
     return Error{fmt::format("guides do not go together with {}, which names strands of the groom", what)};
   };
   if (ways == 0 && groom.guidesSample > 0)
-    return Error{"groom.guides_sample has no effect without guides; expected one of guides, guides_file and "
-                 "guides_primvar"};
+    return Error{
+        "groom.guides_sample has no effect without guides; expected one of guides, guides_file and "
+        "guides_primvar"};
   if (ways == 0) return {};
   if (!scene.cuts.empty()) return refuse("[[cut]]");
   if (!scene.timeKeys.empty() && !scene.maps.empty()) return refuse("a [[map]] beside keys over time");
