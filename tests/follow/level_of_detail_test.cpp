@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "reference/follow_guide.h"
@@ -53,6 +54,14 @@ TEST(LevelOfDetail, EveryStrandLeadsOrFollowsAndKeepsItsShape) {
   Groom twice = grooms[0];  // two in each place
   for (std::size_t s = 0; s < grooms[0].strandCount(); ++s) twice.addStrand(grooms[0].strand(s));
   grooms.push_back(twice);
+  Groom still = grooms[0];  // whose points are partly in one place: at the root, on the way, at the tip
+  for (std::size_t s = 0; s < still.strandCount(); s += 2) {
+    const auto points = std::span(still.points).subspan(still.firstPoint[s], still.strand(s).size());
+    points[1] = points[0];
+    points[7] = points[6];
+    points[15] = points[14] = points[13];
+  }
+  grooms.push_back(still);
   for (const Groom& groom : grooms) {
     const std::size_t count = groom.strandCount();
     for (const double share : kShares) {

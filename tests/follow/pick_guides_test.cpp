@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 #include <set>
+#include <span>
 #include <vector>
 
 #include "ringlet/groom/generate.h"
@@ -71,6 +73,23 @@ TEST(PickGuides, AreNearerThanGuidesPickedAtRandom) {
         best = std::min(best, meanApart(strands, some));
       }
       EXPECT_LT(picked, 0.8 * best) << count;
+    }
+  }
+}
+
+TEST(PickGuides, PointsInOnePlaceDoNotCount) {
+  for (Groom groom : grooms()) {
+    const StrandTraits whole(shapesOf(groom));
+    Groom still = groom;
+    for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+      const auto points = std::span(still.points).subspan(still.firstPoint[s], groom.strand(s).size());
+      points[1] = points[0];
+      points[15] = points[14];
+    }
+    const StrandTraits strands(shapesOf(still));
+    for (std::size_t s = 1; s < strands.count(); ++s) {
+      const double apart = strands.apart(0, s);
+      EXPECT_NEAR(std::sqrt(apart), std::sqrt(whole.apart(0, s)), 0.02) << s;
     }
   }
 }

@@ -20,7 +20,8 @@ Vec3d coreAt(const RestShape& strand, double share) {
   const double arc = share * strand.arcs.back();
   const auto after = std::ranges::upper_bound(strand.arcs, arc);
   const std::size_t k = std::min<std::size_t>(after - strand.arcs.begin(), strand.arcs.size() - 1) - 1;
-  const double between = std::min((arc - strand.arcs[k]) / (strand.arcs[k + 1] - strand.arcs[k]), 1.0);
+  const double edge = strand.arcs[k + 1] - strand.arcs[k];  // 0 where points at the tip are in one place
+  const double between = edge > 0 ? std::min((arc - strand.arcs[k]) / edge, 1.0) : 0;
   return strand.core[k] + (strand.core[k + 1] - strand.core[k]) * between;
 }
 
