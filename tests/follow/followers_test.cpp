@@ -16,17 +16,12 @@
 #include "ringlet/scene/motion.h"
 #include "ringlet/solver/simulation.h"
 #include "tests/support/gpu_test.h"
+#include "tests/support/hairs_at_rest.h"
 
 namespace ringlet::test::followers_test {
 namespace {
 
 class FollowersTest : public GpuTest {};
-
-std::vector<Vec3d> metresOf(const Groom& groom, std::size_t strand) {
-  std::vector<Vec3d> points;
-  for (const Vec3f& p : groom.strand(strand)) points.push_back(Vec3d(p) * groom.metresPerUnit);
-  return points;
-}
 
 constexpr int kFrames = 18;
 
@@ -113,7 +108,7 @@ TEST_F(FollowersTest, AreWhereTheReferenceSays) {
     for (std::size_t g = 0; g < level->groom.strandCount(); ++g) {
       const auto strand =
           std::span(guides).subspan(level->groom.firstPoint[g], level->groom.strand(g).size());
-      const std::vector<Vec3d> rest = metresOf(level->groom, g);
+      const std::vector<Vec3d> rest = test::metresOf(level->groom, g);
       std::vector<Vec3d> pose;
       for (const Vec3f& p : strand) pose.push_back(Vec3d(p));
       poses.push_back(reference::poseGuide(restOfGuide(rest), pose, head.rotation));

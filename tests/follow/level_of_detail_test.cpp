@@ -6,43 +6,18 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "reference/follow_guide.h"
 #include "ringlet/follow/guide_rest.h"
 #include "ringlet/groom/generate.h"
+#include "tests/support/hairs_at_rest.h"
 
 namespace ringlet::test::level_of_detail_test {
 namespace {
 
 constexpr double kShares[] = {1, 0.5, 0.25, 0.05, 1e-6};
-
-std::vector<Vec3d> metresOf(const Groom& groom, std::size_t strand) {
-  std::vector<Vec3d> points;
-  for (const Vec3f& p : groom.strand(strand)) points.push_back(Vec3d(p) * groom.metresPerUnit);
-  return points;
-}
-
-// From the groom's points those that hairs have while their guides are at rest, as the reference has them
-// [m].
-double farthestAtRest(const Groom& groom, const LevelOfDetail& level) {
-  std::vector<reference::GuidePose> poses;
-  for (std::size_t g = 0; g < level.groom.strandCount(); ++g) {
-    const std::vector<Vec3d> guide = metresOf(level.groom, g);
-    poses.push_back(reference::poseGuide(restOfGuide(guide), guide, {}));
-  }
-  double farthest = 0;
-  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
-    const std::vector<Vec3d> wanted = metresOf(groom, s);
-    const auto found = reference::followGuides(level.hairs[s], poses, {}, {}, std::nullopt, level.own.of(s));
-    EXPECT_EQ(found.size(), wanted.size());
-    for (std::size_t i = 0; i < wanted.size(); ++i)
-      farthest = std::max(farthest, length(found[i] - wanted[i]));
-  }
-  return farthest;
-}
 
 TEST(LevelOfDetail, EveryStrandLeadsOrFollowsAndKeepsItsShape) {
   std::vector<Groom> grooms;
@@ -93,7 +68,7 @@ TEST(LevelOfDetail, EveryStrandLeadsOrFollowsAndKeepsItsShape) {
         EXPECT_GT(hair.length, 0);
         EXPECT_LE(hair.length, 1);
       }
-      EXPECT_LT(farthestAtRest(groom, *level), 1e-6);
+      EXPECT_LT(test::farthestAtRest(*level, groom), 1e-6);
     }
   }
 }
@@ -126,7 +101,7 @@ TEST(LevelOfDetail, RootsOfGuidesAreEvenlySpread) {
 // A hair that follows a curl, as the reference has it, is found to be that.
 TEST(LevelOfDetail, FindsHowAStrandDiffersFromItsGuide) {
   const Groom curl = *makeCurl({.radius = 0.008, .turns = 6, .length = 0.25, .particleCount = 97});
-  const std::vector<Vec3d> guide = metresOf(curl, 0);
+  const std::vector<Vec3d> guide = test::metresOf(curl, 0);
   const GuideRest rest = restOfGuide(guide);
   const reference::GuidePose pose = reference::poseGuide(rest, guide, {});
   for (const float phase : {-2.0f, 0.0f, 0.7f, 3.0f}) {

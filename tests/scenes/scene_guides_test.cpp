@@ -7,12 +7,11 @@
 
 #include <algorithm>
 #include <fstream>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "reference/follow_guide.h"
 #include "ringlet/scenes/load/load_scene.h"
+#include "tests/support/hairs_at_rest.h"
 #include "tests/support/test_support.h"
 
 namespace ringlet::scene_guides_test {
@@ -69,32 +68,6 @@ class SceneGuides : public testing::Test {
   const fs::path folder_ = test::scratchFolder("scene_guides");
 };
 
-std::vector<Vec3d> metresOf(const Groom& groom, std::size_t strand) {
-  std::vector<Vec3d> points;
-  for (const Vec3f& p : groom.strand(strand)) points.push_back(Vec3d(p) * groom.metresPerUnit);
-  return points;
-}
-
-// How far hairs are from their places in the whole groom while their guides are at rest [m].
-double farthestAtRest(const LoadedScene& guided, const Groom& whole) {
-  std::vector<reference::GuidePose> poses;
-  for (std::size_t g = 0; g < guided.groom.strandCount(); ++g) {
-    const auto guide = metresOf(guided.groom, g);
-    poses.push_back(reference::poseGuide(restOfGuide(guide), guide, {}));
-  }
-  EXPECT_EQ(guided.level->hairs.size(), whole.strandCount());
-  EXPECT_EQ(guided.level->own.firstPoint, whole.firstPoint);
-  double farthest = 0;
-  for (std::size_t s = 0; s < whole.strandCount(); ++s) {
-    const auto found =
-        reference::followGuides(guided.level->hairs[s], poses, {}, {}, std::nullopt, guided.level->own.of(s));
-    const auto wanted = metresOf(whole, s);
-    for (std::size_t i = 0; i < wanted.size(); ++i)
-      farthest = std::max(farthest, length(found[i] - wanted[i]));
-  }
-  return farthest;
-}
-
 TEST_F(SceneGuides, EveryHairKeepsItsPlace) {
   const std::string file = "[groom]\nfile = \"groom.usda\"\n";
   const std::string motion =
@@ -126,7 +99,7 @@ TEST_F(SceneGuides, EveryHairKeepsItsPlace) {
       others.erase(at, others.find('\n', at) + 1 - at);
     const LoadedScene whole = scene(c.groom + others + c.rest);
     EXPECT_FALSE(whole.level);
-    EXPECT_LT(farthestAtRest(guided, whole.groom), 2e-7);
+    EXPECT_LT(test::farthestAtRest(*guided.level, whole.groom), 2e-7);
   }
 }
 
