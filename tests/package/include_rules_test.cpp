@@ -65,7 +65,7 @@ TEST(IncludeRules, ModulesKnowOnlyWhomTheyMay) {
        {"base", "groom", "scene", "bodies", "motion", "measure", "output", "follow", "gpu", "solver",
         "render", "scenes", "pictures"}},
       {"measure", {"base", "groom", "rest", "scene", "bodies", "measure"}},
-      {"output", {"base", "groom", "gpu", "output"}},
+      {"output", {"base", "groom", "gpu", "motion", "output"}},
       {"follow", {"base", "groom", "scene", "rest", "bodies", "measure", "gpu", "solver", "follow"}},
       {"render", {"base", "bodies", "gpu", "render"}},
   };

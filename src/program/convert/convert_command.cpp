@@ -26,6 +26,7 @@
 #include "program/convert/convert_run.h"
 #include "program/simulate/reference_mover.h"
 #include "ringlet/groom/groom_file.h"
+#include "ringlet/motion/point_cache.h"
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/output/animation_writer.h"
 #include "ringlet/output/precision_names.h"
@@ -53,6 +54,9 @@ constexpr const char* kConvertExample =
     "  ringlet convert out/hair.rgc.partial --info               of a run that was cut short, or goes on\n"
     "  ringlet convert groom.usdc groom.hair                     another program's groom; .hair, .obj, "
     ".ply or .abc\n"
+    "  ringlet convert houdini.usdc hair.abc                     another program's curves that move\n"
+    "  ringlet convert frames/hair.####.obj hair.usdc --rate 30  a file a frame\n"
+    "  ringlet convert cache.pc2 hair.usdc --groom groom.obj     a point cache over a groom\n"
     "\n"
     "OUT's ending says what becomes of it. .usda, .usdc, .abc, .rgc and .png count frames from 1 again; the names "
     "of .obj\n"
@@ -78,6 +82,7 @@ struct TypedConvert {
   std::optional<std::string> up;
   std::optional<double> metresPerUnit;
   std::filesystem::path groom, scene;
+  std::optional<double> framesPerSecond;
   bool info = false, json = false, quiet = false, overwrite = false;
 };
 
@@ -163,7 +168,8 @@ void checkOptions(const TypedConvert& typed) {
     throw CLI::ValidationError("--groom", "the scene names its groom; say one of --scene and --groom");
   if (!typed.hairs && !typed.keys.optionOf("output").empty())
     throw CLI::ValidationError("--hairs", "only such hairs have frizz, clumps and blends; say how many");
-  if (!typed.hairs && !typed.groom.empty()) throw CLI::ValidationError("--groom", "only --hairs needs it");
+  if (!typed.hairs && !typed.groom.empty() && !isPointCache(typed.input))
+    throw CLI::ValidationError("--groom", "only --hairs and a point cache need it");
   if (typed.scene.empty() && !typed.keys.sets.empty())
     throw CLI::ValidationError("--set", "is of a scene, and none is named here");
   if (typed.frame && !typed.frames.empty())
@@ -172,7 +178,7 @@ void checkOptions(const TypedConvert& typed) {
   const auto kind = kindOf(typed);
   if (!kind)
     throw CLI::ValidationError(
-        "OUT", fmt::format("'{}' must end in {}, .obj, .ply or .png, or be a folder for .obj files",
+        "OUT", fmt::format("'{}' must end in {}, .obj, .ply, .hair or .png, or be a folder for .obj files",
                            typed.output.string(), animationList(false)));
   const AnimationFormat* format = animationFormatOf(typed.output);
   if (!typed.precision.empty() && !(format && format->hasPrecisions))
@@ -267,8 +273,20 @@ std::vector<std::string> lostOf(const TypedConvert& typed, const CacheHeader& he
   return lostIn(typed.output, header.metresPerUnit, header.up == UpAxis::z);
 }
 
+// What was typed of a file that another program wrote.
+ForeignReading foreignReadingOf(const TypedConvert& typed) {
+  const GroomReading groom = readingOf(typed.keys);
+  ForeignReading reading{.metresPerUnit = typed.metresPerUnit,
+                         .rootEnd = groom.rootEnd,
+                         .pointsPerStrand = groom.pointsPerStrand,
+                         .groom = typed.groom};
+  if (typed.up) reading.upIsZ = *typed.up == "Z";
+  if (typed.framesPerSecond) reading.framesPerSecond = *typed.framesPerSecond;
+  return reading;
+}
+
 Status runConvert(const TypedConvert& typed) {
-  auto source = AnimationReader::open(typed.input);
+  auto source = AnimationReader::open(typed.input, foreignReadingOf(typed));
   if (!source) return source.error();
   for (const std::string& warning : source->warnings()) say("ringlet convert: warning: {}\n", warning);
   if (typed.info) {
@@ -326,12 +344,15 @@ int run(const TypedConvert& typed) {
   if (isGroom && (!typed.groom.empty() || !typed.scene.empty()))
     throw CLI::ValidationError(typed.groom.empty() ? "--scene" : "--groom",
                                "IN is a groom itself; only the hairs of an animation need one");
-  if (!isGroom &&
-      (typed.up || typed.metresPerUnit || (!typed.keys.optionOf("groom").empty() && typed.groom.empty())))
+  const bool isOfStrands =
+      typed.up || typed.metresPerUnit || (!typed.keys.optionOf("groom").empty() && typed.groom.empty());
+  if (!isGroom && isOfStrands && !holdsForeignFrames(typed.input))
     throw CLI::ValidationError(
         "IN",
-        "is an animation, which says its unit and axis itself; --unit, --up, --root-end and "
-        "--points-per-strand are of grooms");
+        "is an animation of Ringlet's, which says its unit and axis itself; --unit, --up, --root-end and "
+        "--points-per-strand are of grooms and of other programs' animations");
+  if (typed.framesPerSecond && !isSequence(typed.input) && !isPointCache(typed.input))
+    throw CLI::ValidationError("--rate", "only a sequence of files and a point cache do not say it");
   if (!isGroom) checkOptions(typed);
   const Status done = isGroom ? runGroomConvert(typed) : runConvert(typed);
   if (done) return kExitFine;
@@ -347,15 +368,17 @@ void addConvertCommand(CLI::App& app, int& exitCode) {
   command->footer(kConvertExample + keysHelp(convertKeys()) +
                   keysHelp(animationKeys(), "--json keys with --info:") + kConvertExitHelp);
   command
-      ->add_option("IN", typed->input,
-                   "An animation: hair.usda, hair.usdc, hair.abc or hair.rgc, or their .partial; or a groom")
+      ->add_option(
+          "IN", typed->input,
+          "An animation: hair.usda, hair.usdc, hair.abc or hair.rgc, or their .partial; of another program "
+          ".usda, .usdc, .usd, .usdz, .abc, .pc2, .mdd or hair.####.obj; or a groom")
       ->required()
       ->type_name("FILE");
   command
       ->add_option(
           "OUT", typed->output,
           fmt::format(
-              "File to write: {}, .png (six frames side by side), .obj or .ply (name.0001.obj and so on); or "
+              "File to write: {}, .png (six frames side by side), .obj, .ply or .hair (name.0001.obj and so on); or "
               "a folder for .obj files",
               animationList(true)))
       ->type_name("PATH");
@@ -399,18 +422,28 @@ void addConvertCommand(CLI::App& app, int& exitCode) {
       ->type_name("N");
   addHairLookOptions(*command, typed->keys);
   command
-      ->add_option("--unit", typed->metresPerUnit,
-                   "Of a groom: metres per unit of its file (default: what a USD file states, else 0.01)")
+      ->add_option("--rate", typed->framesPerSecond,
+                   "Of a sequence of files and of a point cache: frames a second (default 24)")
+      ->check(between(1e-3, 1e6))
+      ->type_name("RATE");
+  command
+      ->add_option(
+          "--unit", typed->metresPerUnit,
+          "Of a groom and of another program's animation: metres per unit of its file (default: what a "
+          "USD file states, else 0.01)")
       ->check(between(1e-6, 1000))
       ->type_name("METRES");
   command
       ->add_option(
           "--up", typed->up,
-          "Of a groom: the axis that is to point up, to which a USD file is turned, Y or Z (default Y)")
+          "Of a groom and of another program's animation: the axis that is to point up, to which a USD file is "
+          "turned, Y or Z (default: of an animation the file's, else Y)")
       ->check(oneOf({"Y", "Z"}))
       ->type_name("AXIS");
   addOptionsOfKeys(*command, typed->keys, {"groom.root_end", "groom.points_per_strand"});
-  command->add_option("--groom", typed->groom, "The groom that IN was simulated from; for --hairs")
+  command
+      ->add_option("--groom", typed->groom,
+                   "The groom that IN was simulated from, for --hairs; or whose points a point cache moves")
       ->type_name("FILE");
   command
       ->add_option("--scene", typed->scene,

@@ -115,7 +115,9 @@ double errorBoundOf(const AnimationReader& source, const ConvertPlan& plan) {
 
 }  // namespace
 
-bool isFrameFile(const fs::path& path) { return path.extension() == ".obj" || path.extension() == ".ply"; }
+bool isFrameFile(const fs::path& path) {
+  return path.extension() == ".obj" || path.extension() == ".ply" || path.extension() == ".hair";
+}
 
 fs::path framePath(const fs::path& output, int frame) {
   if (!isFrameFile(output)) return output / fmt::format("hair.{:04}.obj", frame);

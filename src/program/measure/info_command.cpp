@@ -28,6 +28,7 @@
 #include "ringlet/groom/treat_groom.h"
 #include "ringlet/measure/groom_inspection.h"
 #include "ringlet/measure/rest_crossings.h"
+#include "ringlet/output/animation_reader.h"
 
 namespace ringlet::program {
 namespace {
@@ -113,9 +114,25 @@ Result<FixedGroom> fix(const TypedInfo& typed, const LoadedGroom& loaded, const 
   return fixed;
 }
 
+// Of a groom whose curves move, or nothing; of other animations an Error that says who reads them.
+Result<std::optional<InfoMotion>> motionOf(const std::filesystem::path& path) {
+  if (!isGroomFile(path) || isSequence(path)) {
+    if (!holdsAnimation(path)) return std::optional<InfoMotion>{};
+    return Error{fmt::format("{} is an animation; `ringlet convert {} --info` says what is in it",
+                             path.string(), path.string()),
+                 Fault::input};
+  }
+  if (!holdsForeignFrames(path)) return std::optional<InfoMotion>{};
+  const auto frames = openForeignFrames(path, {});
+  if (!frames) return frames.error();
+  return std::optional(InfoMotion{(*frames)->frameCount(), (*frames)->framesPerSecond()});
+}
+
 int run(const TypedInfo& typed) {
   if (typed.particles && typed.output.empty())
     throw CLI::ValidationError("--particles", "only --fix writes strands; name its file");
+  const auto motion = motionOf(typed.input);
+  if (!motion) return fail("info", motion.error());
   auto loaded = readGroom(typed.input, readingOf(typed.groom, typed.up == "Z"));
   if (!loaded) return fail("info", loaded.error());
   if (typed.metresPerUnit) loaded->groom.metresPerUnit = *typed.metresPerUnit;
@@ -137,7 +154,8 @@ int run(const TypedInfo& typed) {
                           *loaded,
                           found,
                           crossings,
-                          fixed ? &*fixed : nullptr};
+                          fixed ? &*fixed : nullptr,
+                          *motion};
   if (typed.json) {
     printJson(infoJson(report));
     return kExitFine;

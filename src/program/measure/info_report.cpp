@@ -237,6 +237,12 @@ constexpr ReportRow<Info> kFixedRows[] = {
     {{"output", "", "The file written."}, [](const Info& f) -> Json { return f.output.string(); }},
 };
 
+constexpr ReportRow<InfoMotion> kMotionRows[] = {
+    {{"frames", "", "Frames."}, [](const InfoMotion& m) -> Json { return m.frameCount; }},
+    {{"frames_per_second", "1/s", "Their rate."},
+     [](const InfoMotion& m) -> Json { return m.framesPerSecond; }},
+};
+
 constexpr ReportRow<Info> kInfoRows[] = {
     {{"strands", "", "Strands."}, [](const Info& f) -> Json { return f.found.strandCount; }},
     {{"particles", "", "Particles."}, [](const Info& f) -> Json { return f.found.particleCount; }},
@@ -266,6 +272,8 @@ constexpr ReportRow<Info> kInfoRows[] = {
      [](const Info& f) { return f.loaded.statesUp ? Json("file") : Json(); }},
     {{"likely_up", "", "Y or Z, against which the strands hang; null where they hang along neither."},
      [](const Info& f) { return f.found.likelyUp ? Json(std::string(1, f.found.likelyUp)) : Json(); }},
+    {{"motion", "", "How its curves move; null where none does.", keysOf<kMotionRows>},
+     [](const Info& f) { return f.motion ? objectOf<kMotionRows>(*f.motion) : Json(); }},
     {{"faults", "", "What is wrong, by kind.", keysOf<kFaults>}, faultsJson},
     {{"at_rest", "",
       "How hair lies in itself; null where roots have no distance or hair is too dense to count.",
@@ -343,6 +351,9 @@ std::string infoText(const InfoReport& report) {
       "{:.4g}\n",
       found.box.low.x, found.box.low.y, found.box.low.z, found.box.high.x, found.box.high.y, found.box.high.z,
       size.x, size.y, size.z);
+  if (report.motion)
+    text += fmt::format("  moves         {} frames, {:.6g} a second\n", report.motion->frameCount,
+                        report.motion->framesPerSecond);
   text += fmt::format("  at rest       {}\n", restText(report));
   if (found.isFaultless()) text += "  faults        none\n";
   for (const FaultRow& row : kFaults) {

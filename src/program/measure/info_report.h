@@ -22,13 +22,20 @@ struct FixedGroom {
   std::vector<std::string> warnings;
 };
 
+/// How a file's curves move.
+struct InfoMotion {
+  int frameCount = 0;
+  double framesPerSecond = 0;
+};
+
 struct InfoReport {
   std::filesystem::path input, output;
   std::string unitFrom;  // file, option or default
   const LoadedGroom& loaded;
   const GroomInspection& found;
   const std::optional<RestCrossings>& crossings;
-  const FixedGroom* fixed;  // null without --fix
+  const FixedGroom* fixed;           // null without --fix
+  std::optional<InfoMotion> motion;  // none: nothing moves
 
   double unit() const { return loaded.groom.metresPerUnit; }
 };

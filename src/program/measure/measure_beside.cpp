@@ -22,18 +22,31 @@ double MeasureBeside::overlapOf(std::span<const Vec3f> points) const {
   return contacts_->measure(metres).overlapBeyondRestSum;
 }
 
+// In the unit of the groom.
+Result<std::vector<Vec3f>> MeasureBeside::pointsOf(AnimationReader& run, int frame) const {
+  if (Status read = run.readFrame(frame); !read) return read.error();
+  std::vector<Vec3f> points = run.groom().points;
+  const double share = run.header().metresPerUnit / rest_->metresPerUnit;
+  if (share != 1)
+    for (Vec3f& p : points) p = Vec3f(Vec3d(p) * share);
+  return points;
+}
+
 Status MeasureBeside::addFrame(int frame, const GroomRuler& ruler, std::span<const Vec3f> points) {
   if (frame > against_.frameCount() || (without_ && frame > without_->frameCount())) return {};
-  if (Status read = against_.readFrame(frame); !read) return read;
+  auto against = pointsOf(against_, frame);
+  if (!against) return against.error();
+  lastAgainst_ = std::move(*against);
   const auto ways = tipWays(ruler, *rest_, points, lastAgainst());
   if (!ways) return ways.error();
   frames_.push_back(*ways);
   lastPoints_.assign(points.begin(), points.end());
   if (!without_) return {};
-  if (Status read = without_->readFrame(frame); !read) return read;
+  const auto without = pointsOf(*without_, frame);
+  if (!without) return without.error();
   overlap_ = std::max(overlap_, overlapOf(points));
   overlapAgainst_ = std::max(overlapAgainst_, overlapOf(lastAgainst()));
-  overlapWithout_ = std::max(overlapWithout_, overlapOf(without_->groom().points));
+  overlapWithout_ = std::max(overlapWithout_, overlapOf(*without));
   return {};
 }
 

@@ -17,7 +17,7 @@ namespace ringlet::program {
 
 class MeasureBeside {
  public:
-  /// The runs hold the strands of `rest`, in its unit. Errors: those of ContactRuler::make.
+  /// The runs hold the strands of `rest`. Errors: those of ContactRuler::make.
   static Result<MeasureBeside> make(const Groom& rest, AnimationReader against,
                                     std::optional<AnimationReader> without);
 
@@ -27,19 +27,20 @@ class MeasureBeside {
   MotionBeside result() const;
   /// The last frame that all have: of the motion, and of --against.
   std::span<const Vec3f> lastPoints() const { return lastPoints_; }
-  std::span<const Vec3f> lastAgainst() const { return against_.groom().points; }
+  std::span<const Vec3f> lastAgainst() const { return lastAgainst_; }
 
  private:
   MeasureBeside(const Groom& rest, AnimationReader against, std::optional<AnimationReader> without)
       : rest_(&rest), against_(std::move(against)), without_(std::move(without)) {}
   double overlapOf(std::span<const Vec3f> points) const;
+  Result<std::vector<Vec3f>> pointsOf(AnimationReader& run, int frame) const;
 
   const Groom* rest_;
   AnimationReader against_;
   std::optional<AnimationReader> without_;
   std::optional<ContactRuler> contacts_;  // with without_
   std::vector<TipWays> frames_;
-  std::vector<Vec3f> lastPoints_;
+  std::vector<Vec3f> lastPoints_, lastAgainst_;                   // in the unit of `rest_`
   double overlap_ = 0, overlapAgainst_ = 0, overlapWithout_ = 0;  // beyond rest, of the worst frame
 };
 

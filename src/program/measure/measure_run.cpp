@@ -120,21 +120,36 @@ Result<std::filesystem::path> fileOf(const std::filesystem::path& path) {
   return file;
 }
 
-// Another run of REST's strands, of the same rate and unit as the one that is measured.
+// Of another program's files, where they do not say their unit, it is `unit`, or the usual one.
+Result<AnimationReader> openAnimation(const std::filesystem::path& path, const MeasurePlan& plan,
+                                      std::optional<double> unit) {
+  const GroomReading groom = readingOf(plan.reading);
+  ForeignReading reading{.metresPerUnit = plan.metresPerUnit,
+                         .rootEnd = groom.rootEnd,
+                         .pointsPerStrand = groom.pointsPerStrand,
+                         .groom = plan.rest};
+  if (plan.up) reading.upIsZ = *plan.up == "Z";
+  auto source = AnimationReader::open(path, reading);
+  if (!source || source->statesUnit() || !unit) return source;
+  reading.metresPerUnit = unit;
+  return AnimationReader::open(path, reading);
+}
+
+// Another run of REST's strands, of the same rate as the one that is measured.
 Result<AnimationReader> openRun(const Groom& rest, const MeasurePlan& plan, const std::filesystem::path& path,
                                 double framesPerSecond) {
   const auto file = fileOf(path);
   if (!file) return file.error();
-  auto run = AnimationReader::open(*file);
+  auto run = openAnimation(*file, plan, rest.metresPerUnit);
   if (!run) return run.error();
   for (const std::string& warning : run->warnings()) warn(warning);
   if (Status same = checkSameStrands(rest, countsOf(run->groom()), plan, *file); !same) return same.error();
   const CacheHeader& header = run->header();
-  if (header.framesPerSecond != framesPerSecond || header.metresPerUnit != rest.metresPerUnit)
+  if (header.framesPerSecond != framesPerSecond)
     return Error{fmt::format(
-        "{} has {} frames a second in units of {} m, and what is compared with it {} in units of {} m; only "
-        "runs of one rate and unit can be compared",
-        file->string(), header.framesPerSecond, header.metresPerUnit, framesPerSecond, rest.metresPerUnit)};
+        "{} has {} frames a second, and what is compared with it {}; only runs of one rate can be "
+        "compared",
+        file->string(), header.framesPerSecond, framesPerSecond)};
   return run;
 }
 
@@ -211,7 +226,13 @@ std::vector<Vec3f> inMetres(std::span<const Vec3f> points, double metresPerUnit)
 }
 
 Result<Measured> measureAnimation(const MeasurePlan& plan, const std::filesystem::path& path) {
-  auto source = AnimationReader::open(path);
+  std::optional<double> restUnit = plan.metresPerUnit;
+  if (!restUnit && holdsForeignFrames(path)) {
+    const auto groom = read(plan.rest, plan, isUpZ(plan, UpAxis::y));
+    if (!groom) return groom.error();
+    restUnit = groom->metresPerUnit;
+  }
+  auto source = openAnimation(path, plan, restUnit);
   if (!source) return source.error();
   for (const std::string& warning : source->warnings()) warn(warning);
   const double unit = source->header().metresPerUnit;

@@ -183,11 +183,12 @@ void printOutcome(const RenderOptions& typed, const RenderPlan& plan, const Rend
   if (plan.colours) print("colours: {}\n", plan.colours->scale->sentence(plan.colours->most));
 }
 
-int run(const RenderOptions& typed) {
+int run(RenderOptions typed) {
   std::error_code code;
-  if (!std::filesystem::exists(typed.input, code))
+  if (!std::filesystem::exists(typed.input, code) && !isSequence(typed.input))
     return fail("render",
                 {fmt::format("{}: there is no such file or folder", typed.input.string()), Fault::input});
+  typed.isGroom = isGroomFile(typed.input) && !holdsAnimation(typed.input);
   checkRenderOptions(typed);
   catchInterruption();
   if (isFilm(typed.output)) {
@@ -196,9 +197,9 @@ int run(const RenderOptions& typed) {
   const auto device = openDevice(typed.device);
   if (!device) return fail("render", device.error());
   const RenderPlan plan = renderPlanOf(typed);
-  const auto outcome = isSceneFile(typed.input)       ? runScene(typed, *device, plan)
-                       : isGroomToRender(typed.input) ? runGroom(typed, *device, plan)
-                                                      : runAnimation(typed, *device, plan);
+  const auto outcome = isSceneFile(typed.input) ? runScene(typed, *device, plan)
+                       : typed.isGroom          ? runGroom(typed, *device, plan)
+                                                : runAnimation(typed, *device, plan);
   if (!outcome) return fail("render", outcome.error());
   for (const std::string& warning : outcome->warnings) say("ringlet render: warning: {}\n", warning);
   for (const std::string& message : device->validationMessages())

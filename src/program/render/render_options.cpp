@@ -55,36 +55,34 @@ void checkOutput(const RenderOptions& options) {
 
 void checkFrames(const RenderOptions& options) {
   const auto range = parseFrameRange(options.frames);
-  const bool isGroom = isGroomToRender(options.input);
-  if (isPicture(options.output) && !isGroom && !(range && range->first == range->last))
+  if (isPicture(options.output) && !options.isGroom && !(range && range->first == range->last))
     throw CLI::ValidationError("--output",
                                "is one picture; say which frame, as --frames 12, or name a folder");
   if (options.format != "png" && (isPicture(options.output) || isFilm(options.output)))
     throw CLI::ValidationError("--format", "is of the pictures in a folder; a file's ending says its own");
-  if (isGroom && isFilm(options.output))
+  if (options.isGroom && isFilm(options.output))
     throw CLI::ValidationError("--output", "is a film, but IN is a groom, which has no frames");
 }
 
 void checkInput(const RenderOptions& options) {
-  const bool isGroom = isGroomToRender(options.input);
   const bool isFile = isPicture(options.output) || isFilm(options.output);
   if (isSceneFile(options.input) && (isFile || !options.scene.empty() || !options.groom.empty()))
     throw CLI::ValidationError(
         "IN",
         "is a scene, which is simulated into the folder of its pictures: name a folder with -o, and neither "
         "--scene nor --groom");
-  if (!isGroom && options.up != "Y")
+  if (!options.isGroom && options.up != "Y")
     throw CLI::ValidationError("--up", "is of a groom; animations and scenes say it themselves");
-  if (!isGroom && options.metresPerUnit)
+  if (!options.isGroom && options.metresPerUnit)
     throw CLI::ValidationError("--unit", "is of a groom; animations and scenes say it themselves");
-  if (!isGroom && options.groom.empty() && !options.keys.optionOf("groom").empty())
+  if (!options.isGroom && options.groom.empty() && !options.keys.optionOf("groom").empty())
     throw CLI::ValidationError(options.keys.optionOf("groom"),
                                "is of a groom's file, and none is named here");
   if (!isSceneFile(options.input) && options.scene.empty() && !options.keys.sets.empty())
     throw CLI::ValidationError("--set", "is of a scene, and none is named here");
   if (options.hairs == 0 && !options.keys.optionOf("output").empty())
     throw CLI::ValidationError("--hairs", "0 are no hairs that could have frizz, clumps or blends");
-  if (isGroom && (!options.frames.empty() || !options.groom.empty() || !options.scene.empty()))
+  if (options.isGroom && (!options.frames.empty() || !options.groom.empty() || !options.scene.empty()))
     throw CLI::ValidationError("IN",
                                "is a groom, which has no frames; leave out --frames, --groom and --scene");
   if (!options.scene.empty() && !options.groom.empty())
@@ -104,17 +102,13 @@ void checkColours(const RenderOptions& options) {
                                fmt::format("is of hair; leave it out with --colour {}", scale->name));
   if (options.most && !(scale && scale->most > 0))
     throw CLI::ValidationError("--most", "is of --colour stretch, contacts and error");
-  if (scale && scale->most > 0 && isGroomToRender(options.input))
+  if (scale && scale->most > 0 && options.isGroom)
     throw CLI::ValidationError(
         "--colour",
         fmt::format("{} is of hair that has moved; IN is a groom, which is at rest", scale->name));
 }
 
 }  // namespace
-
-bool isGroomToRender(const std::filesystem::path& input) {
-  return isGroomFile(input) && !holdsAnimation(input);
-}
 
 void checkRenderOptions(const RenderOptions& options) {
   checkOutput(options);

@@ -22,6 +22,7 @@ struct RenderOptions {
   std::optional<double> metresPerUnit, width, melanin, most;
   double redness = 0.3, azimuth = 35, elevation = 5, distance = 1, orbit = 0;
   int samples = 4, blur = 1;
+  bool isGroom = false;  // IN is a groom, and no animation
   bool noBodies = false, noLegend = false, json = false, quiet = false;
 };
 
@@ -32,8 +33,5 @@ void checkRenderOptions(const RenderOptions& options);
 
 /// All but what must be read: the scene, its camera, the strands at rest.
 RenderPlan renderPlanOf(const RenderOptions& options);
-
-/// Whether IN is a groom, and no animation.
-bool isGroomToRender(const std::filesystem::path& input);
 
 }  // namespace ringlet::program

@@ -11,9 +11,9 @@
 
 #include "ringlet/base/quoted.h"
 #include "ringlet/groom/usd/usd_file.h"
+#include "ringlet/groom/usd/usd_value_at.h"
 #include "ringlet/motion/usd_clip_schedule.h"
 #include "ringlet/motion/usd_clip_sets.h"
-#include "ringlet/motion/usd_value_at.h"
 
 namespace ringlet {
 namespace {

@@ -10,8 +10,6 @@
 namespace ringlet {
 namespace {
 
-constexpr double kUsdTimeCodes = 24;  // in a second, of a file that says none
-
 bool hasValue(const UsdAttribute& attribute) {
   const UsdValue& value = attribute.value;
   return !value.numbers.empty() || !value.texts.empty() || value.isBlocked || !attribute.drivenBy.empty();
@@ -123,11 +121,6 @@ Result<UsdNames> UsdPrims::namesOf(std::uint32_t prim, std::string_view attribut
   return names;
 }
 
-Result<double> UsdPrims::timeCodesPerSecond() const {
-  const double rate = layer_.timeCodesPerSecond.value_or(kUsdTimeCodes);
-  if (!(rate > 0 && rate <= 1e6))
-    return Error{fmt::format("{}: found {} time codes per second; expected more than 0", file_, rate)};
-  return rate;
-}
+Result<double> UsdPrims::timeCodesPerSecond() const { return usdTimeCodesPerSecond(layer_, file_); }
 
 }  // namespace ringlet

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "ringlet/groom/usd/usd_transform.h"
-#include "ringlet/motion/usd_value_at.h"
+#include "ringlet/groom/usd/usd_value_at.h"
 
 namespace ringlet {
 

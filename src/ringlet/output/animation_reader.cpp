@@ -38,21 +38,22 @@ bool isAnimation(const fs::path& path) {
   return format && format->isRead;
 }
 
-bool holdsAnimation(const fs::path& path) {
-  if (!isAnimation(path) || path.extension() == ".partial" || path.extension() == ".rgc")
-    return isAnimation(path);
+namespace {
+
+bool isOurs(const fs::path& path) {
+  if (!isAnimation(path)) return false;
+  if (path.extension() == ".partial" || path.extension() == ".rgc") return true;
   std::error_code code;
   if (!fs::is_regular_file(path, code)) return false;  // nor would a pipe ever be opened
   if (path.extension() == ".abc") return AbcReader::isOurs(path);
   return path.extension() == ".usda" ? beginsAsText(path) : UsdcReader::isOurs(path);
 }
 
-Result<AnimationReader> AnimationReader::open(const fs::path& path) {
-  if (!isAnimation(path)) {
-    return Error{
-        fmt::format("{}: cannot read an animation: its name must end in {}, or in one of these and .partial",
-                    path.string(), animationEndings(&AnimationFormat::isRead, "or"))};
-  }
+}  // namespace
+
+bool holdsAnimation(const fs::path& path) { return isOurs(path) || holdsForeignFrames(path); }
+
+Result<AnimationReader> AnimationReader::open(const fs::path& path, const ForeignReading& reading) {
   const std::string extension = finishedName(path).extension().string();
   const auto made = [&](auto reader) -> Result<AnimationReader> {
     if (!reader) return reader.error();
@@ -64,8 +65,10 @@ Result<AnimationReader> AnimationReader::open(const fs::path& path) {
     if (!source.isCache()) source.isFinished_ = path.extension() != ".partial";
     std::error_code code;
     source.byteCount_ = fs::file_size(path, code);
+    if (code) source.byteCount_ = 0;
     return source;
   };
+  if (!isOurs(path)) return made(ForeignReader::open(path, reading));
   if (extension == ".rgc") return made(CacheReader::open(path));
   if (extension == ".abc") return made(AbcReader::open(path));
   return extension == ".usdc" ? made(UsdcReader::open(path)) : made(UsdReader::open(path));
@@ -104,14 +107,21 @@ void AnimationReader::take(const CacheReader& cache) {
   warnings_ = cache.warnings();
 }
 
+void AnimationReader::take(const ForeignReader& foreign) {
+  groom_.firstPoint = foreign.firstPoint();
+  takeHeader(foreign);
+}
+
 const char* AnimationReader::formatName() const {
-  constexpr std::array<const char*, std::variant_size_v<Reader>> kNames{"USD text", "USD crate", "Alembic",
-                                                                        "cache"};
+  if (const auto* foreign = std::get_if<ForeignReader>(&reader_)) return foreign->formatName();
+  constexpr std::array<const char*, std::variant_size_v<Reader> - 1> kNames{"USD text", "USD crate",
+                                                                            "Alembic", "cache"};
   return kNames[reader_.index()];
 }
 
 const char* AnimationReader::formatKey() const {
-  constexpr std::array<const char*, std::variant_size_v<Reader>> kKeys{"usd", "usdc", "abc", "cache"};
+  if (const auto* foreign = std::get_if<ForeignReader>(&reader_)) return foreign->formatKey();
+  constexpr std::array<const char*, std::variant_size_v<Reader> - 1> kKeys{"usd", "usdc", "abc", "cache"};
   return kKeys[reader_.index()];
 }
 
@@ -126,6 +136,7 @@ Status AnimationReader::readFrame(int frame) {
     return latest_ == frameCount_ ? checkEnd(*usd) : Status{};
   }
   latest_ = frame;
+  if (auto* foreign = std::get_if<ForeignReader>(&reader_)) return foreign->readFrame(frame, groom_.points);
   if (auto* crate = std::get_if<UsdcReader>(&reader_)) return crate->readFrame(frame, groom_.points);
   if (auto* archive = std::get_if<AbcReader>(&reader_)) return archive->readFrame(frame, groom_.points);
   return std::get<CacheReader>(reader_).readFrame(frame, groom_.points);

@@ -1,5 +1,5 @@
-// AnimationReader: the frames of an animation that an AnimationWriter wrote, of any format that can be read;
-// finished or `.partial`.
+// AnimationReader: the frames of an animation: one that an AnimationWriter wrote, of any format that can be
+// read, finished or `.partial`; or another program's (foreign/foreign_frames.h).
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,7 @@
 #include "ringlet/output/alembic/abc_reader.h"
 #include "ringlet/output/cache_format.h"
 #include "ringlet/output/cache_reader.h"
+#include "ringlet/output/foreign/foreign_reader.h"
 #include "ringlet/output/usd/usd_reader.h"
 #include "ringlet/output/usd/usdc_reader.h"
 
@@ -21,16 +22,18 @@ namespace ringlet {
 /// Whether the name is that of an animation: one of animationFormats() that is read, and .partial after it.
 bool isAnimation(const std::filesystem::path& path);
 
-/// Whether it can be one by its name and, of .usda, .usdc and .abc, which others write too, by how it begins.
+/// Whether AnimationReader would find frames: by the name and, of USD and Alembic, which others write too, by
+/// how the file begins or by whether its curves move.
 bool holdsAnimation(const std::filesystem::path& path);
 
 class AnimationReader {
  public:
-  /// Errors: the name is of no format, and those of the format's reader.
-  static Result<AnimationReader> open(const std::filesystem::path& path);
+  /// `reading` is for files of other programs. Errors: the name is of no format, and those of the format's
+  /// reader.
+  static Result<AnimationReader> open(const std::filesystem::path& path, const ForeignReading& reading = {});
 
   /// Makes frame 1 to frameCount() the groom's points; a later one than the call before. Errors: the
-  /// reader's. Cost: text is read from frame to frame, all else at once.
+  /// reader's. Cost: text that Ringlet wrote is read from frame to frame, all else at once.
   Status readFrame(int frame);
 
   /// The strands; their points are those of the latest frame, none before the first.
@@ -39,7 +42,13 @@ class AnimationReader {
   const CacheHeader& header() const { return header_; }
   int frameCount() const { return frameCount_; }
   bool isCache() const { return std::holds_alternative<CacheReader>(reader_); }
+  /// Whether header().metresPerUnit is what the file, or ForeignReading, says; else it is only the usual one.
+  bool statesUnit() const {
+    const auto* foreign = std::get_if<ForeignReader>(&reader_);
+    return !foreign || foreign->statesUnit();
+  }
   /// For people "USD text", "USD crate", "Alembic" or "cache"; for programs "usd", "usdc", "abc" or "cache".
+  /// Of another program's as ForeignFrames has them.
   const char* formatName() const;
   const char* formatKey() const;
   bool isFinished() const { return isFinished_; }
@@ -50,11 +59,12 @@ class AnimationReader {
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
-  using Reader = std::variant<UsdReader, UsdcReader, AbcReader, CacheReader>;
+  using Reader = std::variant<UsdReader, UsdcReader, AbcReader, CacheReader, ForeignReader>;
   explicit AnimationReader(Reader reader) : reader_(std::move(reader)) {}
   void take(const UsdReader& usd);
   void take(const FrameReader& frames);
   void take(const CacheReader& cache);
+  void take(const ForeignReader& foreign);
   void takeHeader(const auto& reader);
   Status checkEnd(UsdReader& usd);
 

@@ -50,7 +50,6 @@ enum class UsdHead {
   none,       // nowhere: points are seen from the head, and something else carries the prim
 };
 
-/// What a USD or Alembic file may say beside points, widths and extents.
 /// The guides that a strand of a groom follows, strands of it too, and their shares, which add up to 1. A
 /// guide follows itself.
 struct ClosestGuides {
@@ -60,6 +59,7 @@ struct ClosestGuides {
   bool operator==(const ClosestGuides&) const = default;
 };
 
+/// What a USD or Alembic file may say beside points, widths and extents.
 struct UsdExtras {
   std::optional<float> tipDiameter{};    // strands are evenly thinner from root to tip [file unit]
   std::vector<float> widthFactors{};     // of each strand, on both diameters; empty: all 1

@@ -10,12 +10,6 @@
 #include "ringlet/base/little_endian.h"
 
 namespace ringlet {
-namespace {
-
-constexpr double kUsualWidth = 0.0005;  // of strands whose file does not say it [m]
-
-}  // namespace
-
 Error FrameReader::wrong(const std::string& what) const {
   return Error{
       fmt::format("{}: {}; only animations that Ringlet wrote can be read", file_.path().string(), what)};

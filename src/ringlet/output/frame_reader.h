@@ -19,6 +19,8 @@
 
 namespace ringlet {
 
+inline constexpr double kUsualWidth = 0.0005;  // of strands whose file does not say it [m]
+
 class FrameReader {
  public:
   virtual ~FrameReader() = default;

@@ -24,9 +24,9 @@ class AbcCurvesReader {
   AbcCurvesReader(const AbcArchive& archive, const std::vector<AbcProperty>& properties, AbcBudget& budget)
       : archive_(archive), properties_(properties), budget_(budget) {}
 
-  Result<AbcCurves> read(std::uint32_t object, std::uint32_t pointsPerStrand) {
+  Result<AbcCurves> read(std::uint32_t object, const AbcReading& reading) {
     made_.curves.object = object;
-    if (Status read = readPoints(); !read) return read.error();
+    if (Status read = readPoints(reading.seconds); !read) return read.error();
     if (made_.numbers.empty()) return std::move(made_);
     if (Status read = readForm(); !read) return read.error();
     if (abcPropertyNamed(properties_, "nVertices")) {
@@ -35,7 +35,8 @@ class AbcCurvesReader {
       made_.curves.counts = std::move(*counts);
     }
     made_.curves.numbers = made_.numbers;
-    if (Status fits = made_.curves.fitCounts(pointsPerStrand, "nVertices"); !fits) return fits.error();
+    if (Status fits = made_.curves.fitCounts(reading.pointsPerStrand, "nVertices"); !fits)
+      return fits.error();
     if (Status even = checkWeights(); !even) return even.error();
     const bool mayHaveKnots = made_.form.isCubic && made_.form.basis == CubicBasis::bspline;
     if (mayHaveKnots && abcPropertyNamed(properties_, ".knots")) {
@@ -73,8 +74,8 @@ class AbcCurvesReader {
     return numbers;
   }
 
-  // Those of the first sample that has some, or of the last.
-  Status readPoints() {
+  // Those of the first sample that has some, or of the last; or those at a time.
+  Status readPoints(std::optional<double> seconds) {
     const AbcProperty* property = abcPropertyNamed(properties_, "P");
     if (!property || property->kind == AbcKind::compound || property->sampleCount == 0)
       return unfit("has no P");
@@ -85,6 +86,7 @@ class AbcCurvesReader {
       const auto knots = archive_.knotsOf(*property);
       if (!knots) return knots.error();
       if (!budget_.take(knots->size())) return budget_.state();
+      if (seconds) return readPointsAt(*seconds, *property, *knots);
       for (const AbcKnot& knot : *knots) {
         const auto sample = sampleOf(*property, knot.stored);
         if (!sample) return sample.error();
@@ -97,6 +99,23 @@ class AbcCurvesReader {
     auto numbers = numbersOf("P", AbcType::f16, AbcType::f64);
     if (!numbers) return numbers.error();
     made_.numbers = std::move(*numbers);
+    return {};
+  }
+
+  Status readPointsAt(double seconds, const AbcProperty& property, const std::vector<AbcKnot>& knots) {
+    const auto after = std::ranges::upper_bound(knots, seconds, {}, &AbcKnot::seconds);
+    const AbcKnot& knot = after == knots.begin() ? *after : *(after - 1);
+    sample_ = knot.sample;
+    auto numbers = numbersOf("P", AbcType::f16, AbcType::f64);
+    if (!numbers) return numbers.error();
+    made_.numbers = std::move(*numbers);
+    if (after == knots.begin() || after == knots.end() || !(seconds > knot.seconds)) return {};
+    const auto next = sampleOf(property, after->stored);
+    if (!next) return next.error();
+    if (next->numberCount() != made_.numbers.size()) return {};
+    const double share = (seconds - knot.seconds) / (after->seconds - knot.seconds);
+    for (std::size_t k = 0; k < made_.numbers.size(); ++k)
+      made_.numbers[k] += (next->number(k) - made_.numbers[k]) * share;
     return {};
   }
 
@@ -215,9 +234,9 @@ class AbcCurvesReader {
 }  // namespace
 
 Result<AbcCurves> readAbcCurves(const AbcArchive& archive, std::uint32_t object,
-                                const std::vector<AbcProperty>& properties, std::uint32_t pointsPerStrand,
+                                const std::vector<AbcProperty>& properties, const AbcReading& reading,
                                 AbcBudget& budget) {
-  return AbcCurvesReader(archive, properties, budget).read(object, pointsPerStrand);
+  return AbcCurvesReader(archive, properties, budget).read(object, reading);
 }
 
 }  // namespace ringlet

@@ -1,4 +1,5 @@
-// AbcCurves: what an Alembic object with curves (AbcGeom_Curve_v2) says of them at its first sample.
+// AbcCurves: what an Alembic object with curves (AbcGeom_Curve_v2) says of them at its first sample, or at a
+// time.
 //   P                   f32 x 3, a point each
 //   nVertices           points of each curve
 //   curveBasisAndType   u8 x 4: 0 cubic, 1 linear, 2 of other orders; 1 closed; 0 none, 1 Bezier, 2 B-spline,
@@ -29,11 +30,17 @@ struct AbcCurves {
   bool hasOtherKnots = false;            // that do not fit: even ones were taken
 };
 
-/// Of an object with these properties, those in its `.geom`: as it is at its first sample with points. Error:
-/// a sentence that says what is missing, of another type or not read, or the budget's state. Cost: linear in
-/// the sample. `pointsPerStrand` as of GroomReading.
+/// What of an object is read.
+struct AbcReading {
+  std::uint32_t pointsPerStrand = 0;  // as of GroomReading
+  std::optional<double> seconds{};    // none: its first sample with points
+};
+
+/// Of an object with these properties, those in its `.geom`. Between two samples of as many points these go
+/// straight, and all else is as at the one before. Error: a sentence that says what is missing, of another
+/// type or not read, or the budget's state. Cost: linear in the samples.
 Result<AbcCurves> readAbcCurves(const AbcArchive& archive, std::uint32_t object,
-                                const std::vector<AbcProperty>& properties, std::uint32_t pointsPerStrand,
+                                const std::vector<AbcProperty>& properties, const AbcReading& reading,
                                 AbcBudget& budget);
 
 }  // namespace ringlet

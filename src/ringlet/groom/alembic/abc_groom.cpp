@@ -50,9 +50,10 @@ std::string countedKind(std::size_t count, std::string_view schema) {
 
 class AbcGroomMaker {
  public:
-  AbcGroomMaker(const AbcArchive& archive, const GroomReading& reading)
+  AbcGroomMaker(const AbcArchive& archive, const GroomReading& reading, std::optional<double> seconds)
       : archive_(archive),
         reading_(reading),
+        seconds_(seconds),
         budget_(archive),
         strands_(archive.name(), "curves object", archive.byteCount(),
                  [&archive](std::uint32_t object) { return archive.pathOf(object); }) {}
@@ -69,6 +70,19 @@ class AbcGroomMaker {
     if (strands_.loaded().groom.strandCount() == 0) return strands_.noStrand(curvesCount);
     warn();
     return std::move(strands_.loaded());
+  }
+
+  Result<std::vector<double>> times() {
+    if (Status looked = lookAtObjects(); !looked) return looked.error();
+    std::vector<double> all;
+    for (std::uint32_t object = 0; object < objects_.size(); ++object) {
+      if (objects_[object].schema != kCurveSchema || !isDrawn(object)) continue;
+      for (const double seconds : timesOf(object)) all.push_back(seconds);
+      if (!budget_.state()) return budget_.state().error();
+    }
+    std::ranges::sort(all);
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
   }
 
  private:
@@ -172,17 +186,37 @@ class AbcGroomMaker {
   }
   void noteMoves(double seconds) { firstTime_ = firstTime_ ? std::min(*firstTime_, seconds) : seconds; }
 
+  // Of what moves; what cannot be read has none.
+  std::vector<double> timesOf(std::uint32_t object) {
+    std::vector<double> all;
+    const auto properties = geometryOf(object);
+    const AbcProperty* points = properties ? abcPropertyNamed(*properties, "P") : nullptr;
+    if (points && points->kind != AbcKind::compound && points->isChanging()) {
+      const auto knots = archive_.knotsOf(*points);
+      if (knots && budget_.take(knots->size()))
+        for (const AbcKnot& knot : *knots) all.push_back(knot.seconds);
+    }
+    if (!budget_.take(objects_[object].chain)) return all;
+    const auto transforms = AbcTransforms::of(archive_, object);
+    if (!transforms) return all;
+    const std::vector<double> moves = transforms->seconds();
+    if (budget_.take(moves.size())) all.insert(all.end(), moves.begin(), moves.end());
+    return all;
+  }
+
   // Fails only where the groom becomes too large or the file's structure is broken.
   Status readObject(std::uint32_t object) {
     const auto properties = geometryOf(object);
     if (!properties) return leaveOut(object, properties.error());
-    const auto made = readAbcCurves(archive_, object, *properties, reading_.pointsPerStrand, budget_);
+    const auto made =
+        readAbcCurves(archive_, object, *properties,
+                      {.pointsPerStrand = reading_.pointsPerStrand, .seconds = seconds_}, budget_);
     if (!made) return leaveOut(object, made.error());
     if (made->numbers.empty()) {
       strands_.leaveOutEmpty(object);
       return {};
     }
-    const auto place = placeOf(object, made->seconds);
+    const auto place = placeOf(object, seconds_ ? seconds_ : made->seconds);
     if (!place) return leaveOut(object, place.error());
     if (made->emptySeconds) {
       if (begunEmpty_.count == 0) emptyTimes_ = {*made->emptySeconds, *made->seconds};
@@ -282,7 +316,7 @@ class AbcGroomMaker {
                       begunEmpty_.count == 1 ? "1 curves object is"
                                              : fmt::format("{} curves objects are", begunEmpty_.count),
                       archive_.pathOf(begunEmpty_.first), emptyTimes_.first, emptyTimes_.second));
-    if (firstTime_)
+    if (firstTime_ && !seconds_)
       strands_.warn(fmt::format("it moves; read as it is at its first sample, at {} s", *firstTime_));
     if (instances_ > 0)
       strands_.warn(fmt::format("{} left aside; only the curves themselves are read",
@@ -296,6 +330,7 @@ class AbcGroomMaker {
 
   const AbcArchive& archive_;
   const GroomReading& reading_;
+  std::optional<double> seconds_;  // none: each object's first
   AbcBudget budget_;
   CurveStrands strands_;
   std::vector<Object> objects_{};
@@ -312,7 +347,15 @@ Result<LoadedGroom> readAbcGroom(std::span<const std::byte> bytes, const std::fi
                                  const GroomReading& reading) {
   const auto archive = AbcArchive::of(bytes, path.string());
   if (!archive) return archive.error();
-  return AbcGroomMaker(*archive, reading).make();
+  return AbcGroomMaker(*archive, reading, std::nullopt).make();
+}
+
+Result<LoadedGroom> abcGroomAt(double seconds, const AbcArchive& archive, const GroomReading& reading) {
+  return AbcGroomMaker(archive, reading, seconds).make();
+}
+
+Result<std::vector<double>> abcGroomTimes(const AbcArchive& archive) {
+  return AbcGroomMaker(archive, {}, std::nullopt).times();
 }
 
 }  // namespace ringlet

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <vector>
 
 #include "ringlet/base/result.h"
 #include "ringlet/groom/loaded_groom.h"
@@ -21,5 +22,14 @@ namespace ringlet {
 /// but std::bad_alloc. `path` is for messages.
 Result<LoadedGroom> readAbcGroom(std::span<const std::byte> bytes, const std::filesystem::path& path,
                                  const GroomReading& reading = {});
+
+class AbcArchive;
+
+/// The same at a time, of curves that move; visibility is the first sample's.
+Result<LoadedGroom> abcGroomAt(double seconds, const AbcArchive& archive, const GroomReading& reading);
+
+/// The times at which curves that are drawn, or what places them, have a sample [s], rising; none: nothing
+/// moves.
+Result<std::vector<double>> abcGroomTimes(const AbcArchive& archive);
 
 }  // namespace ringlet

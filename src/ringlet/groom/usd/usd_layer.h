@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "ringlet/base/result.h"
+
 namespace ringlet {
 
 inline constexpr std::uint32_t kNoUsdPrim = 0xffffffff;
@@ -100,8 +102,13 @@ inline bool isUsdValue(std::string_view name) {
   return name == "widths" || name == "ids" || name.starts_with("primvars:");
 }
 
-/// What of a file is kept: of strands their first samples; of meshes all.
-enum class UsdContent { strands, strandsAndValues, meshes };
+/// What of a file is kept: of strands their first samples, of those that move and of meshes all.
+enum class UsdContent { strands, strandsAndValues, movingStrands, meshes };
+
+/// Whether all samples are kept and not the first.
+inline bool keepsUsdSamples(UsdContent content) {
+  return content == UsdContent::movingStrands || content == UsdContent::meshes;
+}
 
 /// Whether a mesh that moves needs it: its points and faces, and what deforms it (motion/usd_skin.h). A prim
 /// without a type, as clips have them, may be of any.
@@ -145,8 +152,16 @@ inline bool isUsdDeformation(std::string_view name) {
          name == "skel:blendShapeTargets";
 }
 
+/// Whether strands have a value between two samples' there; of all else the sample before holds.
+inline bool goesBetweenUsdSamples(std::string_view name) {
+  return name == "points" || name.starts_with("xformOp:");
+}
+
 /// Whether its first samples count for nothing as long as they are empty: hair that is not there yet.
 inline bool mayBeginEmpty(std::string_view name) { return name == "points" || name == "curveVertexCounts"; }
+
+/// 24 where the file does not say. Errors, which begin with the file's `name`: a rate that is none.
+Result<double> usdTimeCodesPerSecond(const UsdLayer& layer, const std::string& name);
 
 /// Null where the prim has none of this name, or none that is kept.
 const UsdAttribute* usdAttributeOf(const UsdPrim& prim, std::string_view name);

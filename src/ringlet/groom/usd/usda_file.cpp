@@ -284,7 +284,7 @@ class UsdaReader {
   }
 
   Status readSamples(UsdAttribute& attribute) {
-    if (content_ == UsdContent::meshes) return readEverySample(attribute);
+    if (keepsUsdSamples(content_)) return readEverySample(attribute);
     if (!accept('{')) return wanted("'{'");
     const bool mayBeEmpty = mayBeginEmpty(attribute.name);
     const auto isEmpty = [](const UsdValue& value) { return value.numbers.empty() && value.texts.empty(); };

@@ -252,10 +252,12 @@ class CrateReader {
           return Error{fmt::format("{}: {}: found no time samples where they are named", crate_.name(),
                                    crate_.describe(path))};
         using Kept = usdc::CrateValues::Kept;
-        const Kept kept = reading_.keepsPlaces                     ? Kept::places
-                          : reading_.content == UsdContent::meshes ? Kept::all
-                                                                   : Kept::first;
-        const Status read = values_.readSamples(field.rep, mostElements, kept, attribute);
+        const Kept kept = reading_.keepsPlaces                ? Kept::places
+                          : keepsUsdSamples(reading_.content) ? Kept::all
+                                                              : Kept::first;
+        const Status read = reading_.time
+                                ? values_.readSamplesAt(*reading_.time, field.rep, mostElements, attribute)
+                                : values_.readSamples(field.rep, mostElements, kept, attribute);
         return isOnlyCarried(attribute) ? Status{} : read;
       }
       if (meaningOf(field) == Field::standard && !attribute.time) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -18,6 +19,7 @@ struct UsdcReading {
   /// file that `bytes` may be the beginning of.
   bool keepsPlaces = false;
   UsdContent content = UsdContent::strands;
+  std::optional<double> time{};  // values that move are those of this time, and count as ones that do not
 };
 
 /// Reads a layer from a crate of version 0.4.0 to 0.13.0, in which all that is inside counts from its first

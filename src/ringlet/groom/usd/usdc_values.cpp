@@ -10,6 +10,7 @@
 
 #include "ringlet/base/half.h"
 #include "ringlet/base/little_endian.h"
+#include "ringlet/groom/usd/usd_value_at.h"
 
 namespace ringlet::usdc {
 namespace {
@@ -184,58 +185,88 @@ Result<std::uint64_t> CrateValues::placeAfter(std::uint64_t at) const {
   return at + step;
 }
 
-Status CrateValues::readSamples(Rep rep, std::uint64_t mostElements, Kept kept, UsdAttribute& attribute) {
+// None: count is 0.
+Result<CrateValues::Samples> CrateValues::samplesOf(Rep rep) const {
   const auto times = placeAfter(rep.payload());
   if (!times) return times.error();
   const Rep timesRep{readU64(crate_.bytes(), *times)};
   const bool isList =
       timesRep.type() == kDoubleVectorType || (timesRep.type() == kDoubleType && timesRep.isArray());
   if (!isList || !crate_.has(timesRep.payload(), 8)) return crate_.wrong(*times, "no list of times", "one");
-  const std::uint64_t count = readU64(crate_.bytes(), timesRep.payload());
-  if (count == 0) return {};
-  if (count > (crate_.bytes().size() - timesRep.payload() - 8) / 8)
-    return crate_.ended(*times, fmt::format("{} times", count));
-  const auto timeAt = [&](std::uint64_t i) {
-    return readF64(crate_.bytes(), timesRep.payload() + 8 + 8 * i);
-  };
-  if (!std::isfinite(timeAt(0)) || (count > 1 && !(timeAt(1) > timeAt(0))))
-    return crate_.wrong(timesRep.payload(), "times that do not rise", "finite ones, in order");
-
+  Samples samples{.count = readU64(crate_.bytes(), timesRep.payload()), .times = timesRep.payload() + 8};
+  if (samples.count == 0) return samples;
+  if (samples.count > (crate_.bytes().size() - samples.times) / 8)
+    return crate_.ended(*times, fmt::format("{} times", samples.count));
   const auto values = placeAfter(*times + 8);
   if (!values) return values.error();
-  if (readU64(crate_.bytes(), *values) != count || !crate_.has(*values, 8 + 8 * count))
-    return crate_.ended(*values, fmt::format("{} samples", count));
-  attribute.time = timeAt(0);
-  attribute.isSampled = count > 1;
-  if (kept == Kept::all) {
-    for (std::uint64_t i = 0; i < count; ++i) {
-      if (!std::isfinite(timeAt(i)) || (i > 0 && !(timeAt(i) > timeAt(i - 1))))
-        return crate_.wrong(timesRep.payload(), "times that do not rise", "finite ones, in order");
-      auto value = valueOf({readU64(crate_.bytes(), *values + 8 + 8 * i)}, mostElements);
-      if (!value) return value.error();
-      attribute.samples.push_back({timeAt(i), std::move(*value)});
-    }
-    attribute.value = attribute.samples.front().value;
-    return {};
-  }
+  samples.reps = *values + 8;
+  if (readU64(crate_.bytes(), *values) != samples.count || !crate_.has(*values, 8 + 8 * samples.count))
+    return crate_.ended(*values, fmt::format("{} samples", samples.count));
+  return samples;
+}
+
+double CrateValues::timeOf(const Samples& samples, std::uint64_t i) const {
+  return readF64(crate_.bytes(), samples.times + 8 * i);
+}
+
+Result<UsdValue> CrateValues::sampleOf(const Samples& samples, std::uint64_t i, std::uint64_t mostElements) {
+  return valueOf({readU64(crate_.bytes(), samples.reps + 8 * i)}, mostElements);
+}
+
+Status CrateValues::checkTimes(const Samples& samples) const {
+  for (std::uint64_t i = 0; i < samples.count; ++i)
+    if (!std::isfinite(timeOf(samples, i)) || (i > 0 && !(timeOf(samples, i) > timeOf(samples, i - 1))))
+      return crate_.wrong(samples.times - 8, "times that do not rise", "finite ones, in order");
+  return {};
+}
+
+Status CrateValues::readSamples(Rep rep, std::uint64_t mostElements, Kept kept, UsdAttribute& attribute) {
+  const auto samples = samplesOf(rep);
+  if (!samples) return samples.error();
+  if (samples->count == 0) return {};
+  if (Status rising = checkTimes(*samples); !rising) return rising;
+  attribute.time = timeOf(*samples, 0);
+  attribute.isSampled = samples->count > 1;
   if (kept == Kept::places) {
-    for (std::uint64_t i = 0; i < count; ++i)
-      attribute.places.push_back({timeAt(i), readU64(crate_.bytes(), *values + 8 + 8 * i)});
+    for (std::uint64_t i = 0; i < samples->count; ++i)
+      attribute.places.push_back({timeOf(*samples, i), readU64(crate_.bytes(), samples->reps + 8 * i)});
     return {};
   }
-  // Of what may begin empty the first that is not, else the first.
-  for (std::uint64_t i = 0; i < count; ++i) {
-    auto value = valueOf({readU64(crate_.bytes(), *values + 8 + 8 * i)}, mostElements);
+  // All; or of what may begin empty the first that is not, else the first.
+  for (std::uint64_t i = 0; i < samples->count; ++i) {
+    auto value = sampleOf(*samples, i, mostElements);
     if (!value) return value.error();
+    if (kept == Kept::all) {
+      attribute.samples.push_back({timeOf(*samples, i), std::move(*value)});
+      continue;
+    }
     const bool isEmpty = value->numbers.empty() && value->texts.empty();
     if (i > 0 && isEmpty) continue;
-    if (i > 0 && !(std::isfinite(timeAt(i)) && timeAt(i) > timeAt(0)))
-      return crate_.wrong(timesRep.payload(), "times that do not rise", "finite ones, in order");
-    if (i > 0) attribute.emptyTime = timeAt(0);
-    attribute.time = timeAt(i);
+    if (i > 0) attribute.emptyTime = timeOf(*samples, 0);
+    attribute.time = timeOf(*samples, i);
     attribute.value = std::move(*value);
     if (!isEmpty || !mayBeginEmpty(attribute.name)) break;
   }
+  if (kept == Kept::all) attribute.value = attribute.samples.front().value;
+  return {};
+}
+
+Status CrateValues::readSamplesAt(double time, Rep rep, std::uint64_t mostElements, UsdAttribute& attribute) {
+  const auto samples = samplesOf(rep);
+  if (!samples) return samples.error();
+  if (samples->count == 0) return {};
+  if (Status rising = checkTimes(*samples); !rising) return rising;
+  std::uint64_t after = 0;
+  while (after < samples->count && !(timeOf(*samples, after) > time)) ++after;
+  std::vector<UsdSample> around;
+  for (std::uint64_t i = after - (after > 0); i < std::min(after + 1, samples->count); ++i) {
+    auto value = sampleOf(*samples, i, mostElements);
+    if (!value) return value.error();
+    around.push_back({timeOf(*samples, i), std::move(*value)});
+    if (around.back().time == time || !goesBetweenUsdSamples(attribute.name)) break;
+  }
+  attribute.time = time;
+  attribute.value = usdValueAt(around, time);
   return {};
 }
 

@@ -27,6 +27,8 @@ class CrateValues {
   /// Of an attribute's samples the first, all, or where each of them is.
   enum class Kept { first, all, places };
   Status readSamples(Rep rep, std::uint64_t mostElements, Kept kept, UsdAttribute& attribute);
+  /// The value at a time, of usd_value_at.h; at most two samples are decoded.
+  Status readSamplesAt(double time, Rep rep, std::uint64_t mostElements, UsdAttribute& attribute);
 
   /// Whether valueOf() knows values of this type; an asset is a token.
   static bool isRead(Rep rep);
@@ -64,6 +66,13 @@ class CrateValues {
   void readNumbers(const Type& type, std::uint64_t at, std::size_t count, UsdValue& value) const;
   Status readArray(Rep rep, const Type& type, std::uint64_t mostElements, UsdValue& value);
   Result<std::uint64_t> placeAfter(std::uint64_t at) const;
+  struct Samples {
+    std::uint64_t count = 0, times = 0, reps = 0;  // and where these are, 8 bytes each
+  };
+  Result<Samples> samplesOf(Rep rep) const;
+  double timeOf(const Samples& samples, std::uint64_t i) const;
+  Result<UsdValue> sampleOf(const Samples& samples, std::uint64_t i, std::uint64_t mostElements);
+  Status checkTimes(const Samples& samples) const;
 
   const CrateStructure& crate_;
   std::uint64_t numbersRead_ = 0, entriesRead_ = 0;

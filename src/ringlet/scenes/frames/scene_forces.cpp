@@ -181,7 +181,13 @@ Status SceneForces::loadGoal(const SceneFile& scene, const Groom& groom) {
   if (haveGoals()) groom_ = goalOf(groom);
   if (!hasGoalFile_) return {};
   if (holdsAnimation(scene.goalFile)) {
-    auto animation = GoalAnimation::open(scene.goalFile, groom, scene.groom.up == "Z");
+    const GroomReading reading = readingOf(scene.groom);
+    auto animation = GoalAnimation::open(scene.goalFile, groom,
+                                         {.metresPerUnit = scene.groom.metresPerUnit,
+                                          .upIsZ = scene.groom.up == "Z",
+                                          .rootEnd = reading.rootEnd,
+                                          .pointsPerStrand = reading.pointsPerStrand,
+                                          .groom = scene.groom.file});
     if (!animation) return animation.error();
     animation_ = std::move(*animation);
     return {};

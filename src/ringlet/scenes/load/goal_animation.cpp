@@ -11,12 +11,14 @@
 
 namespace ringlet {
 
-GoalAnimation::GoalAnimation(std::filesystem::path path) : path_(std::move(path)) {}
+GoalAnimation::GoalAnimation(std::filesystem::path path, const ForeignReading& reading)
+    : path_(std::move(path)), reading_(reading) {}
 GoalAnimation::~GoalAnimation() = default;
 
 Result<std::shared_ptr<GoalAnimation>> GoalAnimation::open(const std::filesystem::path& path,
-                                                           const Groom& groom, bool upIsZ) {
-  const std::shared_ptr<GoalAnimation> self(new GoalAnimation(path));
+                                                           const Groom& groom,
+                                                           const ForeignReading& reading) {
+  const std::shared_ptr<GoalAnimation> self(new GoalAnimation(path, reading));
   if (Status read = self->show(1); !read) return read.error();
   const Groom& found = self->reader_->groom();
   if (found.firstPoint != groom.firstPoint)
@@ -24,7 +26,7 @@ Result<std::shared_ptr<GoalAnimation>> GoalAnimation::open(const std::filesystem
         "{} has {} strands of {} particles in all, the groom {} of {}; expected the same strands, particle "
         "for particle",
         path.string(), found.strandCount(), found.points.size(), groom.strandCount(), groom.points.size())};
-  if ((self->reader_->header().up == UpAxis::z) != upIsZ)
+  if ((self->reader_->header().up == UpAxis::z) != reading.upIsZ)
     return Error{fmt::format("{} has another up axis than the scene", path.string())};
   return self;
 }
@@ -41,7 +43,7 @@ Status GoalAnimation::read(int frame) {
 Status GoalAnimation::show(int frame) {
   if (frame == latest_) return {};
   if (!reader_ || frame < latest_) {
-    auto opened = AnimationReader::open(path_);
+    auto opened = AnimationReader::open(path_, reading_);
     if (!opened) return opened.error();
     reader_ = std::make_unique<AnimationReader>(std::move(*opened));
     latest_ = 0;

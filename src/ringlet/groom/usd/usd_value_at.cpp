@@ -1,5 +1,5 @@
-// Implements motion/usd_value_at.h.
-#include "ringlet/motion/usd_value_at.h"
+// Implements groom/usd/usd_value_at.h.
+#include "ringlet/groom/usd/usd_value_at.h"
 
 #include <algorithm>
 
