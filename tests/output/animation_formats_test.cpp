@@ -154,6 +154,28 @@ TEST_P(Formats, EveryFrameIsReadBack) {
   EXPECT_TRUE(holdsAnimation(path_));
 }
 
+// As if another program had written it.
+TEST_P(Formats, ItsCurvesMoveForWhoeverReadsThem) {
+  if (path_.extension() == ".rgc") return;  // nobody else's
+  auto writer = begin();
+  ASSERT_TRUE(writer) << writer.error().message;
+  add(**writer, 1, kFrames);
+  ASSERT_TRUE((*writer)->finish());
+  auto reader = ForeignReader::open(path_, {.metresPerUnit = 0.00254, .upIsZ = true});
+  ASSERT_TRUE(reader) << reader.error().message;
+  EXPECT_EQ(reader->frameCount(), kFrames);
+  EXPECT_EQ(reader->firstPoint(), groom_.firstPoint);
+  EXPECT_EQ(reader->framesPerSecond(), 30);
+  EXPECT_EQ(reader->diameter(), 0.25f);
+  EXPECT_TRUE(reader->warnings().empty()) << reader->warnings()[0];
+  for (int frame = kFrames; frame > 0; --frame) {
+    std::vector<Vec3f> points;
+    const Status read = reader->readFrame(frame, points);
+    ASSERT_TRUE(read) << frame << ": " << read.error().message;
+    expectPoints(points, pointsAt(groom_, frame), 0);
+  }
+}
+
 TEST_P(Formats, AfterEveryFrameTheFileHasItAndThoseBeforeIt) {
   {
     auto writer = begin();
