@@ -1,9 +1,12 @@
 // `ringlet measure` as a user runs it: a groom, a pose, an animation.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "ringlet/groom/groom_file.h"
+#include "ringlet/output/animation_reader.h"
 #include "ringlet/output/usd/usd_writer.h"
 #include "tests/measure/strand_samples.h"
 #include "tests/program/run_program.h"

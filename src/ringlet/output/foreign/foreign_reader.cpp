@@ -48,8 +48,7 @@ Result<ForeignReader> ForeignReader::open(const std::filesystem::path& path, con
 }
 
 Status ForeignReader::takeFirst(const ForeignReading& reading) {
-  reading_ = {
-      .upIsZ = reading.upIsZ.value_or(false), .keepsPrims = true, .pointsPerStrand = reading.pointsPerStrand};
+  reading_ = {.upIsZ = reading.upIsZ.value_or(false), .pointsPerStrand = reading.pointsPerStrand};
   auto first = frameOf(1, reading_);
   if (!first) return first.error();
   if (!reading.upIsZ && first->isTurned) {
@@ -57,13 +56,14 @@ Status ForeignReader::takeFirst(const ForeignReading& reading) {
     first = frameOf(1, reading_);
     if (!first) return first.error();
   }
-  reading_.keepsPrims = false;
   isTurned_ = strandsToTurn(reading.rootEnd, first->groom);
   firstPoint_ = first->groom.firstPoint;
   statesUnit_ = first->statesUnit || reading.metresPerUnit;
   metresPerUnit_ = reading.metresPerUnit.value_or(first->groom.metresPerUnit);
-  if (!isTurned_.empty()) turnRound(isTurned_, first->groom);
-  diameter_ = rootWidthOf(*first).value_or(static_cast<float>(kUsualWidth / metresPerUnit_));
+  const auto withWidths =
+      frameOf(1, {.upIsZ = reading_.upIsZ, .keepsPrims = true, .pointsPerStrand = reading.pointsPerStrand});
+  if (!withWidths) return withWidths.error();
+  diameter_ = rootWidthOf(*withWidths).value_or(static_cast<float>(kUsualWidth / metresPerUnit_));
   warnings_ = std::move(first->warnings);
   if (!frames_->warning().empty()) warnings_.push_back(frames_->warning());
   return {};
