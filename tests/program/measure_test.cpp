@@ -251,7 +251,7 @@ TEST(Measure, AnotherProgramsRunIsCompared) {
     const json found = measureJson(folder, {"rest.obj", run, "--against", against});
     EXPECT_EQ(found["frames"], 96);
     EXPECT_NEAR(found["bounce_hz"].get<double>(), 3, 0.1);
-    EXPECT_NEAR(found["against_motion"]["apart_mm"].get<double>(), 0, 1e-3);
+    EXPECT_NEAR(found["against_motion"]["tips"].get<double>(), 0, 1e-3);
     EXPECT_NEAR(found["against"]["tip"][2].get<double>(), 0, 1e-6);
   }
 }
