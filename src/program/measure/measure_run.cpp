@@ -21,17 +21,17 @@ namespace {
 
 void warn(const std::string& sentence) { say("ringlet measure: warning: {}\n", sentence); }
 
-// A groom with its up axis where `upIsZ` says, in its file's unit or the one plan, and in no other than
-// `unit` where that is known.
+// A groom with its up axis where `upIsZ` says, in its file's unit or the one plan, or brought to `unit`. An
+// animation of Ringlet's (`isRun`) is in the unit of a groom that states none.
 Result<Groom> read(const std::filesystem::path& path, const MeasurePlan& plan, bool upIsZ,
-                   std::optional<double> unit = {}) {
+                   std::optional<double> unit = {}, bool isRun = true) {
   auto loaded = readGroom(path, readingOf(plan.reading, upIsZ));
   if (!loaded) return loaded.error();
   for (const std::string& warning : loaded->warnings) warn(warning);
   Groom& groom = loaded->groom;
   if (plan.metresPerUnit) groom.metresPerUnit = *plan.metresPerUnit;
   if (!unit || groom.metresPerUnit == *unit) return std::move(groom);
-  if (loaded->statesUnit && !plan.metresPerUnit) {
+  if (!isRun || (loaded->statesUnit && !plan.metresPerUnit)) {
     warn(fmt::format("{} is in units of {} m, and measured in {} m", path.string(), groom.metresPerUnit,
                      *unit));
     for (Vec3f& p : groom.points) p = Vec3f(Vec3d(p) * (groom.metresPerUnit / *unit));
@@ -124,10 +124,8 @@ Result<std::filesystem::path> fileOf(const std::filesystem::path& path) {
 Result<AnimationReader> openAnimation(const std::filesystem::path& path, const MeasurePlan& plan,
                                       std::optional<double> unit) {
   const GroomReading groom = readingOf(plan.reading);
-  ForeignReading reading{.metresPerUnit = plan.metresPerUnit,
-                         .rootEnd = groom.rootEnd,
-                         .pointsPerStrand = groom.pointsPerStrand,
-                         .groom = plan.rest};
+  ForeignReading reading{
+      .rootEnd = groom.rootEnd, .pointsPerStrand = groom.pointsPerStrand, .groom = plan.rest};
   if (plan.up) reading.upIsZ = *plan.up == "Z";
   auto source = AnimationReader::open(path, reading);
   if (!source || source->statesUnit() || !unit) return source;
@@ -236,12 +234,13 @@ Result<Measured> measureAnimation(const MeasurePlan& plan, const std::filesystem
   if (!source) return source.error();
   for (const std::string& warning : source->warnings()) warn(warning);
   const double unit = source->header().metresPerUnit;
-  if (plan.metresPerUnit && std::abs(*plan.metresPerUnit / unit - 1) > 1e-9) {
+  const bool isRun = !source->isForeign();
+  if (isRun && plan.metresPerUnit && std::abs(*plan.metresPerUnit / unit - 1) > 1e-9) {
     return Error{fmt::format("--unit {} does not fit {}, which was written in units of {} m; leave it out",
                              *plan.metresPerUnit, path.string(), unit)};
   }
   const bool upIsZ = isUpZ(plan, source->header().up);
-  auto rest = read(plan.rest, plan, upIsZ, unit);
+  auto rest = read(plan.rest, plan, upIsZ, unit, isRun);
   if (!rest) return rest.error();
   if (Status same = checkSameStrands(*rest, countsOf(source->groom()), plan, path); !same)
     return same.error();

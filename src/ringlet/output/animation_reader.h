@@ -42,6 +42,7 @@ class AnimationReader {
   const CacheHeader& header() const { return header_; }
   int frameCount() const { return frameCount_; }
   bool isCache() const { return std::holds_alternative<CacheReader>(reader_); }
+  bool isForeign() const { return std::holds_alternative<ForeignReader>(reader_); }
   /// Whether header().metresPerUnit is what the file, or ForeignReading, says; else it is only the usual one.
   bool statesUnit() const {
     const auto* foreign = std::get_if<ForeignReader>(&reader_);
