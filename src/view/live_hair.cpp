@@ -37,6 +37,9 @@ Status LiveHair::place(const SceneMoment& now) {
   auto hair = Simulation::create(*asset_, start);
   if (!hair) return hair.error();
   hair_.emplace(std::move(*hair));
+  if (now.frame == now.frames.first()) {
+    if (Status begun = beginShot(places, *scene_, *hair_); !begun) return begun;
+  }
   for (const TimedCuts& before : now.frames.cutsBefore(now.frame)) {
     if (Status cut = hair_->cut(before.cuts); !cut) return cut;
   }

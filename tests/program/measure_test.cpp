@@ -248,7 +248,10 @@ TEST(Measure, AnotherProgramsRunIsCompared) {
   }
   std::ofstream(folder / "foreign.usda") << text << " }\n}\n";
   for (const auto& [run, against] : {std::pair("foreign.usda", "out"), std::pair("out", "foreign.usda")}) {
-    const json found = measureJson(folder, {"rest.obj", run, "--against", against});
+    const ProgramResult result =
+        runProgram(folder, {"measure", "rest.obj", run, "--against", against, "--json"});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    const json found = json::parse(result.out);
     EXPECT_EQ(found["frames"], 96);
     EXPECT_NEAR(found["bounce_hz"].get<double>(), 3, 0.1);
     EXPECT_NEAR(found["against_motion"]["tips"].get<double>(), 0, 1e-3);

@@ -15,6 +15,7 @@ inline std::vector<PathCase> pathCases() {
   return {
       {"groom.file", "[groom]\nfile = 'PATH'\n"},
       {"groom.guides_file", groom + "guides_file = 'PATH'\n"},
+      {"start.from", groom + "[start]\nfrom = 'PATH'\n"},
       {"groom.scalp", "[groom]\ngenerate = 'head'\nscalp = 'PATH'\n"},
       {"motion.file", groom + "[motion]\nfile = 'PATH'\n"},
       {"scalp.file", groom + "[scalp]\nfile = 'PATH'\n"},

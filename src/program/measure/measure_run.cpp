@@ -96,30 +96,6 @@ bool isUpZ(const MeasurePlan& plan, UpAxis otherwise) {
 }
 Vec3d upOf(bool isZ) { return isZ ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0}; }
 
-// What `ringlet simulate` wrote into a folder, a finished file rather than one that is not; or nothing.
-std::filesystem::path animationIn(const std::filesystem::path& folder) {
-  std::error_code code;
-  for (const char* suffix : {"", ".partial"}) {
-    for (const AnimationFormat& format : animationFormats()) {
-      std::filesystem::path path = folder / fmt::format("hair{}{}", format.extension, suffix);
-      if (std::filesystem::exists(path, code)) return path;
-    }
-  }
-  return {};
-}
-
-// The file that `path` stands for: of a folder the animation in it.
-Result<std::filesystem::path> fileOf(const std::filesystem::path& path) {
-  std::error_code code;
-  if (!std::filesystem::is_directory(path, code)) return path;
-  const std::filesystem::path file = animationIn(path);
-  if (file.empty())
-    return Error{fmt::format(
-        "{} holds no hair.usda, hair.usdc, hair.abc or hair.rgc; is it a folder that `ringlet simulate` wrote?",
-        path.string())};
-  return file;
-}
-
 // Of another program's files, where they do not say their unit, it is `unit`, or the usual one.
 Result<AnimationReader> openAnimation(const std::filesystem::path& path, const MeasurePlan& plan,
                                       std::optional<double> unit) {
@@ -136,7 +112,7 @@ Result<AnimationReader> openAnimation(const std::filesystem::path& path, const M
 // Another run of REST's strands, of the same rate as the one that is measured.
 Result<AnimationReader> openRun(const Groom& rest, const MeasurePlan& plan, const std::filesystem::path& path,
                                 double framesPerSecond) {
-  const auto file = fileOf(path);
+  const auto file = animationFileOf(path);
   if (!file) return file.error();
   auto run = openAnimation(*file, plan, rest.metresPerUnit);
   if (!run) return run.error();
@@ -155,7 +131,7 @@ Result<AnimationReader> openRun(const Groom& rest, const MeasurePlan& plan, cons
 Result<std::optional<MeasureBeside>> openBeside(const Groom& rest, const MeasurePlan& plan, int frameCount,
                                                 double framesPerSecond) {
   if (plan.against.empty()) return std::optional<MeasureBeside>{};
-  const auto file = fileOf(plan.against);
+  const auto file = animationFileOf(plan.against);
   if (!file) return file.error();
   if (!holdsAnimation(*file)) {
     if (plan.without.empty()) return std::optional<MeasureBeside>{};
@@ -313,7 +289,7 @@ Result<Measured> measure(const MeasurePlan& plan, const std::filesystem::path& o
         "groom.obj {}`",
         plan.rest.string(), plan.rest.string())};
   }
-  const auto path = fileOf(other);
+  const auto path = animationFileOf(other);
   if (!path) return path.error();
   return holdsAnimation(*path) ? measureAnimation(plan, *path) : measureGroom(plan, *path);
 }

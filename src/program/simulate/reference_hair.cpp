@@ -10,6 +10,7 @@
 #include "ringlet/base/stopwatch.h"
 #include "ringlet/rest/rest_contacts.h"
 #include "ringlet/rest/rest_state.h"
+#include "ringlet/run/scene_run.h"
 
 namespace ringlet::program {
 namespace {
@@ -30,6 +31,7 @@ class ReferenceHair : public SceneHair {
     if (!start.roots.empty()) simulation_.placeRoots(start.roots, start.rootsEarlier);
     simulation_.placeBodies(start.bodies);
     if (!input.scene.rootShifts.empty()) simulation_.setRootShifts(input.scene.rootShifts);
+    if (input.scene.start) beginShot(start, input.scene);
   }
 
   Status submit(const SceneFrame& frame) override {
@@ -100,6 +102,16 @@ class ReferenceHair : public SceneHair {
   }
 
  private:
+  void beginShot(const ScenePlaces& places, const LoadedScene& scene) {
+    const auto fieldOf = [](const std::vector<Vec3f>& points) {
+      reference::Field<double> field;
+      for (const Vec3f& p : points) field.push_back(reference::toEigen<double>(p));
+      return field;
+    };
+    const HairState begun = startOf({pointsNow(), pointsOf(simulation_.velocities())}, places, scene);
+    simulation_.setState(fieldOf(begun.positions), fieldOf(begun.velocities));
+  }
+
   SimulationReport report() {
     const auto from = simulation_.report();
     return SimulationReport{.maxEdgeStretch = from.nonfinite > 0 ? INFINITY : from.maxEdgeStretch,
@@ -120,12 +132,13 @@ class ReferenceHair : public SceneHair {
     return report;
   }
 
-  std::vector<Vec3f> pointsNow() const {
+  static std::vector<Vec3f> pointsOf(const reference::Field<double>& field) {
     std::vector<Vec3f> points;
-    points.reserve(simulation_.positions().size());
-    for (const auto& p : simulation_.positions()) points.push_back(Vec3f(Vec3d{p.x(), p.y(), p.z()}));
+    points.reserve(field.size());
+    for (const auto& p : field) points.push_back(Vec3f(Vec3d{p.x(), p.y(), p.z()}));
     return points;
   }
+  std::vector<Vec3f> pointsNow() const { return pointsOf(simulation_.positions()); }
 
   const Groom* groom_;
   Material material_;

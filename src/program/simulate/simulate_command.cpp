@@ -356,6 +356,7 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       {"groom.unit", "groom.up", "groom.root_end", "groom.points_per_strand", "groom.guides",
        "groom.guides_file", "groom.guides_primvar", "groom.guides_sample", "groom.bind", "groom.bind_frame"},
       "Groom");
+  addOptionsOfKeys(*command, typed->keys, {"start.from", "start.frame", "start.blend"}, "Start");
   addMotionOptions(*command, typed->keys);
   addSimulationOptions(*command, typed->keys);
 

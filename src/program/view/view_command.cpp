@@ -200,7 +200,7 @@ void addViewCommand(CLI::App& app, int& exitCode) {
   addSetOption(*command, typed->keys);
   addOptionsOfKeys(*command, typed->keys,
                    {"groom.unit", "groom.up", "groom.root_end", "groom.points_per_strand", "groom.guides",
-                    "groom.guides_file", "groom.guides_primvar"});
+                    "groom.guides_file", "groom.guides_primvar", "start.from", "start.frame", "start.blend"});
   addConfinedOption(*command, typed->reach);
   addHairLookOptions(*command, typed->keys);
   command->add_option("--hairs", typed->hairs, "Hairs that follow the strands; 0: the strands themselves")

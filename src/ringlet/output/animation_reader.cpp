@@ -53,6 +53,20 @@ bool isOurs(const fs::path& path) {
 
 bool holdsAnimation(const fs::path& path) { return isOurs(path) || holdsForeignFrames(path); }
 
+Result<fs::path> animationFileOf(const fs::path& path) {
+  std::error_code code;
+  if (!fs::is_directory(path, code)) return path;
+  for (const char* suffix : {"", ".partial"}) {
+    for (const AnimationFormat& format : animationFormats()) {
+      fs::path file = path / fmt::format("hair{}{}", format.extension, suffix);
+      if (fs::exists(file, code)) return file;
+    }
+  }
+  return Error{fmt::format(
+      "{} holds no hair.usda, hair.usdc, hair.abc or hair.rgc; is it a folder that `ringlet simulate` wrote?",
+      path.string())};
+}
+
 Result<AnimationReader> AnimationReader::open(const fs::path& path, const ForeignReading& reading) {
   const std::string extension = finishedName(path).extension().string();
   const auto made = [&](auto reader) -> Result<AnimationReader> {

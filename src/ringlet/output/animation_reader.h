@@ -26,6 +26,10 @@ bool isAnimation(const std::filesystem::path& path);
 /// how the file begins or by whether its curves move.
 bool holdsAnimation(const std::filesystem::path& path);
 
+/// The file that `path` stands for: of a run's folder the animation in it, a finished one rather than one
+/// that is not; else itself. An Error where the folder holds none.
+Result<std::filesystem::path> animationFileOf(const std::filesystem::path& path);
+
 class AnimationReader {
  public:
   /// `reading` is for files of other programs. Errors: the name is of no format, and those of the format's

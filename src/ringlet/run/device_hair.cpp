@@ -75,8 +75,11 @@ Result<Simulation> makeSimulation(const SceneHairInput& input, DeviceHairChoice 
   choice.kernel.geometry = input.scene.geometry.get();
   choice.kernel.residual = input.measuresResidual;
   choice.kernel.rest = input.rest;
-  return Simulation::create(choice.device, input.scene.groom, input.scene.material, input.settings(),
-                            stateOf(start, input.scene), kernelOf(input.scene, choice.kernel));
+  auto hair = Simulation::create(choice.device, input.scene.groom, input.scene.material, input.settings(),
+                                 stateOf(start, input.scene), kernelOf(input.scene, choice.kernel));
+  if (!hair) return hair;
+  if (Status begun = beginShot(start, input.scene, *hair); !begun) return begun.error();
+  return hair;
 }
 
 Result<std::unique_ptr<SceneHair>> makeDeviceHair(const SceneHairInput& input, DeviceHairChoice choice) {

@@ -19,6 +19,7 @@
 #include "ringlet/motion/motion_file.h"
 #include "ringlet/motion/usd_clip_files.h"
 #include "ringlet/motion/usd_mesh.h"
+#include "ringlet/output/animation_reader.h"
 #include "ringlet/output/animation_writer.h"
 #include "ringlet/rest/material_file.h"
 #include "ringlet/run/run_folder.h"
@@ -69,6 +70,12 @@ std::vector<fs::path> inputFilesOf(const fs::path& input, const SceneFile& scene
   // USD files name value clips. No other file that a scene names refers to further files. A scalp may be
   // glTF, whatever its ending.
   for (const fs::path& file : std::vector(files.begin(), files.end())) {
+    if (file == scene.start.from) {
+      if (const auto animation = animationFileOf(file)) {
+        files.erase(file);
+        files.insert(*animation);
+      }
+    }
     if (isMeshSequence(file)) {
       files.erase(file);
       std::ranges::for_each(meshSequenceFiles(file), add);

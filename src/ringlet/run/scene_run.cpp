@@ -1,7 +1,11 @@
 // Implements run/scene_run.h.
 #include "ringlet/run/scene_run.h"
 
+#include <cmath>
+#include <utility>
+
 #include "ringlet/run/scene_hair.h"
+#include "ringlet/scenes/load/shot_start.h"
 
 namespace ringlet {
 namespace {
@@ -43,6 +47,33 @@ InitialState stateOf(const ScenePlaces& places, const LoadedScene& scene) {
           .roots = places.roots,
           .rootsEarlier = places.rootsEarlier,
           .rootShifts = scene.rootShifts};
+}
+
+HairState startOf(HairState atRest, const ScenePlaces& places, const LoadedScene& scene) {
+  const ShotStart& start = *scene.start;
+  const Quatd head = places.head.rotation, turn = head * places.headEarlier.rotation.conjugate();
+  const double sign = turn.w < 0 ? -1 : 1, half = length(Vec3d{turn.x, turn.y, turn.z});
+  const Vec3d axis = half > 0 ? Vec3d{turn.x, turn.y, turn.z} * (sign / half) : Vec3d{};
+  const Vec3d spin = axis * (2 * std::atan2(half, sign * turn.w) / scene.settings.stepSeconds());
+  const Groom& groom = scene.groom;
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+    const std::uint32_t first = groom.firstPoint[s];
+    const Vec3d root(atRest.positions[first]);
+    for (auto i = first + static_cast<std::uint32_t>(scene.settings.rootCount); i < groom.firstPoint[s + 1];
+         ++i) {
+      const Vec3d place = root + rotate(head, Vec3d(start.offsets[i]));
+      atRest.positions[i] = Vec3f(place);
+      atRest.velocities[i] = Vec3f(cross(spin, place) + rotate(head, Vec3d(start.velocities[i])));
+    }
+  }
+  return atRest;
+}
+
+Status beginShot(const ScenePlaces& places, const LoadedScene& scene, Simulation& hair) {
+  if (!scene.start) return {};
+  auto atRest = hair.state();
+  if (!atRest) return atRest.error();
+  return hair.setState(startOf(std::move(*atRest), places, scene));
 }
 
 Status prepare(const SceneFrame& frame, Simulation& hair, bool isStepByStep) {

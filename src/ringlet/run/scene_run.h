@@ -29,6 +29,12 @@ Result<HairAsset> buildAsset(const ComputeDevice& device, const LoadedScene& sce
 /// The state of the scene's hair at these places, at rest. Refers to both arguments.
 InitialState stateOf(const ScenePlaces& places, const LoadedScene& scene);
 
+/// Hair that begins as another run ended (LoadedScene::start, which there is): from its state at rest there.
+/// Roots stay where they are, and all moves with the head besides.
+HairState startOf(HairState atRest, const ScenePlaces& places, const LoadedScene& scene);
+/// Makes hair that was made in stateOf() begin so, where the scene says it.
+Status beginShot(const ScenePlaces& places, const LoadedScene& scene, Simulation& hair);
+
 /// Applies a frame's change and forces to the hair before the frame; no frame may be in flight if there is a
 /// change. `isStepByStep`: the hair's frames are steps of the scene's frames.
 Status prepare(const SceneFrame& frame, Simulation& hair, bool isStepByStep = false);

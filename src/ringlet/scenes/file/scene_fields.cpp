@@ -21,6 +21,7 @@ constexpr NumberRange kDegrees{-1e6, 1e6};  // any turn
 constexpr NumberRange kUnit{1e-6, 1000};    // [m]
 constexpr NumberRange kSeconds{0, 3600};
 constexpr NumberRange kBindFrames{1, 1e6};
+constexpr NumberRange kStartFrames{1, 1e9};
 constexpr NumberRange kPointsPerStrand{2, kMostPointsPerStrand};
 constexpr NumberRange kGuides{1, 1e6};
 constexpr const char* kGenerated = "curl, swatch, head";
@@ -347,6 +348,26 @@ std::span<const SceneField<SceneRoots>> rootsFields() {
        "Time at which the roots are back in place; inf: never.",
        &R::untilSeconds,
        {0, kInfinity}},
+  };
+  return all;
+}
+
+std::span<const SceneField<SceneStart>> startFields() {
+  using S = SceneStart;
+  static const SceneField<S> all[] = {
+      {"from", "", "none: at rest",
+       "Another run, whose hair this one begins with: the folder or file of an animation, of Ringlet or of another "
+       "program, with the groom's strands. Places and velocities are those seen from the head, which its roots "
+       "say.",
+       &S::from},
+      {"frame", "", "the last", "Frame of that run, from 1.", &S::frame, kStartFrames},
+      {"blend",
+       "",
+       "",
+       "Frames over which hair is held to the shape it began with, ever less: for a groom of another rest shape. "
+       "Its own motion is damped meanwhile.",
+       &S::blend,
+       {0, 1e6}},
   };
   return all;
 }

@@ -21,6 +21,7 @@ std::span<const SceneField<SceneMotion>> headMotionFields();  // of the head's o
 std::span<const SceneField<SceneKeyframe>> keyframeFields();
 std::span<const SceneField<SceneRoots>> rootsFields();
 std::span<const SceneField<SceneScalp>> scalpFields();
+std::span<const SceneField<SceneStart>> startFields();
 std::span<const SceneField<SceneSimulation>> simulationFields();
 std::span<const SceneField<SceneBody>> bodyFields();
 std::span<const SceneField<SceneCamera>> cameraFields();

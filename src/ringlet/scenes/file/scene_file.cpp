@@ -43,8 +43,9 @@ void addKeys(std::vector<KnownKey>& keys, const std::string& table,
 const std::vector<KnownKey>& knownKeys() {
   static const std::vector<KnownKey> all = [] {
     std::vector<KnownKey> keys;
-    for (const char* table : {"groom", "material", "motion", "scalp", "simulation", "contacts", "air", "goal",
-                              "body", "camera", "field", "hold", "cut", "group", "map", "key", "output"})
+    for (const char* table :
+         {"groom", "material", "motion", "scalp", "start", "simulation", "contacts", "air", "goal", "body",
+          "camera", "field", "hold", "cut", "group", "map", "key", "output"})
       keys.push_back({"", table});
     addKeys(keys, "groom", groomFields());
     keys.push_back({"groom", "cut"});
@@ -58,6 +59,7 @@ const std::vector<KnownKey>& knownKeys() {
     addKeys(keys, "motion.key", keyframeFields());
     addKeys(keys, "motion.roots", rootsFields());
     addKeys(keys, "scalp", scalpFields());
+    addKeys(keys, "start", startFields());
     addKeys(keys, "simulation", simulationFields());
     addKeys(keys, "contacts", contactFields());
     addKeys(keys, "air", airFields());
@@ -126,6 +128,8 @@ class SceneReader {
       readFields(*table, "scalp", scalpFields(), scene.scalp);
       checkScalp(*table, scene.scalp);
     }
+    if (const toml::table* table = tableOf(file, "", "start"))
+      readFields(*table, "start", startFields(), scene.start);
     readSimulation(file, scene.simulation);
     if (const toml::table* table = tableOf(file, "", "contacts")) {
       scene.contacts.on = true;

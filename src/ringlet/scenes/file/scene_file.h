@@ -129,6 +129,13 @@ struct SceneScalp {
   bool isThere() const { return !file.empty() || !body.empty(); }
 };
 
+/// How hair begins: as it was at a frame of another run, seen from the head.
+struct SceneStart {
+  std::filesystem::path from{};  // an animation, or a run's folder; empty: hair begins at rest
+  std::optional<int> frame{};    // unset: the last
+  int blend = 0;                 // frames over which hair is held to how it began, ever less
+};
+
 struct SceneSimulation {
   double framesPerSecond = Settings{}.framesPerSecond;
   std::optional<int> frames;
@@ -291,6 +298,7 @@ struct SceneFile {
   bool hasMaterial = false;  // false: the default one
   SceneMotion motion{.kind = "still"};
   SceneScalp scalp;
+  SceneStart start;
   SceneSimulation simulation;
   ContactSettings contacts;
   AirSettings air;

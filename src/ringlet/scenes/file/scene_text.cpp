@@ -181,14 +181,15 @@ std::vector<SceneKey> sceneKeys() {
   addKeys(keys, "motion.key", keyframeFields());
   addKeys(keys, "motion.roots", rootsFields());
   addKeys(keys, "scalp", scalpFields());
+  addKeys(keys, "start", startFields());
   addKeys(keys, "simulation", simulationFields());
   addKeys(keys, "contacts", contactFields());
   addKeys(keys, "air", airFields());
   addKeys(keys, "goal", goalFields());
   keys.push_back(
       {"goal", "file", "path", "", "", "none: the groom itself", "",
-       "What hair is pulled to: an animation that Ringlet wrote (.usda, .usdc, .abc, .rgc), whose points are in "
-       "the world, or a groom in another pose, placed as the groom is. Its strands are the groom's."});
+       "What hair is pulled to: an animation, of Ringlet or of another program, whose points are in the world, or "
+       "a groom in another pose, placed as the groom is. Its strands are the groom's."});
   addKeys(keys, "body", bodyFields());
   keys.push_back(
       {"body", "moves", "head, still or a table", "", "", "head", "",
@@ -226,6 +227,7 @@ std::string sceneText(const SceneFile& scene, const std::filesystem::path& folde
     text += motionText(scene.motion, "motion", folder);
   text += headed("[motion.roots]", linesOf(rootsFields(), scene.motion.roots, SceneRoots{}, folder));
   text += headed("[scalp]", linesOf(scalpFields(), scene.scalp, SceneScalp{}, folder));
+  text += headed("[start]", linesOf(startFields(), scene.start, SceneStart{}, folder));
   text += headed("[simulation]", linesOf(simulationFields(), scene.simulation, SceneSimulation{}, folder));
   text += switchedText("[contacts]", contactFields(), scene.contacts);
   text += switchedText("[air]", airFields(), scene.air);

@@ -19,6 +19,8 @@
 namespace ringlet {
 namespace {
 
+constexpr double kStartStrength = 10;  // of what holds hair to how it began, at first: its weight 1 mm off
+
 constexpr double kUsualDrag = 20;  // of kinds that need one [1/s]: a twentieth of a second takes hair along
 
 // What its kind makes of the strength.
@@ -58,6 +60,16 @@ double shareHeld(const SceneHold& hold, double seconds) {
 
 BodyPose toCarrier(const BodyPose& carrier, const BodyPose& place) {
   return {carrier.position + rotate(carrier.rotation, place.position), carrier.rotation * place.rotation};
+}
+
+// Two springs are one: their strengths together, at the place between.
+void addSpring(Vec3d place, double strength, std::size_t particle, GoalPose& pose) {
+  float& sum = pose.strengths[particle];
+  Vec3f& at = pose.places[particle];
+  const double all = static_cast<double>(sum) + strength;
+  if (all <= 0) return;
+  at = static_cast<Vec3f>((Vec3d(at) * static_cast<double>(sum) + place * strength) / all);
+  sum = static_cast<float>(all);
 }
 
 }  // namespace
@@ -221,6 +233,12 @@ std::vector<ForceField> SceneForces::fieldsAt(double seconds, const HeadPose& he
   return fields;
 }
 
+void SceneForces::holdStart(std::vector<Vec3f> places, double seconds) {
+  startPlaces_ = std::move(places);
+  startSeconds_ = seconds;
+  if (groom_.places.empty()) groom_.places = startPlaces_;
+}
+
 Result<GoalPose> SceneForces::goalsAt(double seconds, const HeadPose& head, const GoalSettings& goal,
                                       const SceneKeys* keys) const {
   const std::vector<SceneHold> stated = keys ? keys->holdsAt(seconds) : scene_.holds;
@@ -242,15 +260,12 @@ Result<GoalPose> SceneForces::goalsAt(double seconds, const HeadPose& head, cons
       Vec3d place = middle + held.offset * stated[h].gather;
       if (!hold.carrier.isHeads())  // goals are in the groom's axes
         place = rotate(back, carrier.position + rotate(carrier.rotation, place) - head.position);
-      // Two springs are one: their strengths together, at the place between.
-      float& sum = pose.strengths[held.particle];
-      Vec3f& at = pose.places[held.particle];
-      const double all = static_cast<double>(sum) + strength;
-      if (all <= 0) continue;
-      at = static_cast<Vec3f>((Vec3d(at) * static_cast<double>(sum) + place * strength) / all);
-      sum = static_cast<float>(all);
+      addSpring(place, strength, held.particle, pose);
     }
   }
+  const double left = startSeconds_ > 0 ? 1 - seconds / startSeconds_ : 0;
+  for (std::size_t i = 0; left > 0 && i < startPlaces_.size(); ++i)
+    addSpring(Vec3d(startPlaces_[i]), left * kStartStrength, i, pose);
   return pose;
 }
 

@@ -56,7 +56,12 @@ class SceneForces {
 
   bool haveFields() const { return !fields_.empty(); }
   /// Whether goals are other than the groom itself all the time.
-  bool haveGoals() const { return !holds_.empty() || hasGoalFile_ || !goalFactors_.empty(); }
+  bool haveGoals() const {
+    return !holds_.empty() || hasGoalFile_ || !goalFactors_.empty() || startSeconds_ > 0;
+  }
+  /// Holds hair to `places`, in the head's frame [m], ever less for so long [s]; of each of the groom's
+  /// particles.
+  void holdStart(std::vector<Vec3f> places, double seconds);
 
   /// In the world, with the head at `head`. `keys`: of the same scene, or none.
   std::vector<ForceField> fieldsAt(double seconds, const HeadPose& head, const SceneKeys* keys) const;
@@ -108,6 +113,8 @@ class SceneForces {
   bool hasGoalFile_ = false;
   std::vector<float> goalFactors_;            // of maps, on each particle's strength; empty: all 1
   std::shared_ptr<GoalAnimation> animation_;  // that moves it
+  std::vector<Vec3f> startPlaces_;            // of holdStart
+  double startSeconds_ = 0;
 };
 
 }  // namespace ringlet

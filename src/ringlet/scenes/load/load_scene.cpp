@@ -38,6 +38,7 @@
 #include "ringlet/scenes/load/scene_maps.h"
 #include "ringlet/scenes/load/scene_parts.h"
 #include "ringlet/scenes/load/scene_scalp.h"
+#include "ringlet/scenes/load/shot_start.h"
 #include "ringlet/scenes/load/world_bind.h"
 
 namespace ringlet {
@@ -399,6 +400,25 @@ Result<Material> loadMaterialOf(const SceneFile& scene, Integrator integrator,
   return material;
 }
 
+namespace {
+
+Status takeShotStart(const SceneFile& scene, LoadedScene& loaded) {
+  if (scene.start.from.empty()) {
+    if (!scene.start.frame && scene.start.blend == 0) return {};
+    return Error{"start.frame and start.blend have no effect without start.from; expected the run it is of"};
+  }
+  if (scene.motion.preRollSeconds > 0)
+    return Error{
+        "found start.from and motion.pre_roll: one lets hair begin as another run ended, the other with its own "
+        "motion before the first frame; expected one of them"};
+  auto start = loadShotStart(scene, loaded.groom, loaded.settings.rootCount, loaded.warnings);
+  if (!start) return Error{fmt::format("the start: {}", start.error().message), start.error().fault};
+  loaded.start = std::make_shared<const ShotStart>(std::move(*start));
+  return {};
+}
+
+}  // namespace
+
 Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known, SharedGeometry geometry) {
   LoadedScene loaded;
   loaded.warnings = scene.warnings;
@@ -445,9 +465,13 @@ Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known, 
     if (!keys) return keys.error();
     loaded.keys.emplace(std::move(*keys));
   }
+  if (Status begun = takeShotStart(scene, loaded); !begun) return begun.error();
   auto forces = SceneForces::load(scene, loaded.groom, loaded.motion, loaded.warnings);
   if (!forces) return forces.error();
   loaded.forces = std::move(*forces);
+  if (loaded.start && scene.start.blend > 0)
+    loaded.forces.holdStart(loaded.start->placesIn(loaded.groom),
+                            scene.start.blend / loaded.settings.framesPerSecond);
   if ((loaded.forces.haveFields() || loaded.forces.haveGoals()) &&
       loaded.settings.integrator != Integrator::jacobi)
     return Error{"fields, holds and goals of a file need the integrator jacobi; this run has another"};

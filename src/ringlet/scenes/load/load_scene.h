@@ -58,6 +58,8 @@ struct SceneHairs {
 /// As measureGeometry of rest/rest_state.h makes it.
 using SharedGeometry = std::shared_ptr<const std::vector<StrandGeometry>>;
 
+struct ShotStart;
+
 /// Everything that a run of a scene starts from.
 struct LoadedScene {
   Groom groom;                                   // what is simulated: all strands, or the guides
@@ -66,7 +68,8 @@ struct LoadedScene {
   Material material;                             // its dials worked in
   Settings settings;
   Motion motion;
-  std::vector<Vec3d> rootShifts{};  // as InitialState takes them
+  std::vector<Vec3d> rootShifts{};           // as InitialState takes them
+  std::shared_ptr<const ShotStart> start{};  // none: hair begins at rest
   std::vector<Body> bodies{};
   std::vector<MovingBody> moving{};  // those that bend, in the order of bodies
   std::optional<HeadScalp> scalp{};  // that roots follow; none: the head carries them

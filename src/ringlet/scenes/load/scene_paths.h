@@ -15,8 +15,8 @@ void forEachFileOf(Scene& scene, const Visit& visit) {
     };
     (one(paths), ...);
   };
-  named(scene.groom.file, scene.groom.scalp, scene.groom.guidesFile, scene.motion.file, scene.scalp.file,
-        scene.scalp.cache, scene.goalFile, scene.output.hairScalpFile);
+  named(scene.groom.file, scene.groom.scalp, scene.groom.guidesFile, scene.start.from, scene.motion.file,
+        scene.scalp.file, scene.scalp.cache, scene.goalFile, scene.output.hairScalpFile);
   for (auto& body : scene.bodies) {
     named(body.file, body.cache);
     if (body.moves) named(body.moves->file);
