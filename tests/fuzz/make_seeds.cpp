@@ -302,18 +302,27 @@ Status writeAnimations(const fs::path& folder) {
     if (Status done = writeFrames(UsdWriter::create(path, groom, {.frameCount = 2}), groom, isFinished);
         !done)
       return done;
-    if (isFinished) fs::copy_file(path, seed(folder, "usda_file", "own"));
+    if (isFinished) {
+      fs::copy_file(path, seed(folder, "usda_file", "own"));
+      fs::copy_file(path, seed(folder, "foreign_frames", "text"));
+    }
 
     AnimationOptions all{.frameCount = 2};
     all.usd = {.ids = true, .rest = true, .velocities = true, .head = UsdHead::transform};
     const fs::path crate = seed(folder, "usdc_reader", name);
     if (Status done = writeFrames(UsdcWriter::create(crate, groom, all), groom, isFinished); !done)
       return done;
-    if (isFinished) fs::copy_file(crate, seed(folder, "usdc_file", "own"));
+    if (isFinished) {
+      fs::copy_file(crate, seed(folder, "usdc_file", "own"));
+      fs::copy_file(crate, seed(folder, "foreign_frames", "crate"));
+    }
     const fs::path archive = seed(folder, "abc_reader", name);
     if (Status done = writeFrames(AbcWriter::create(archive, groom, all), groom, isFinished); !done)
       return done;
-    if (isFinished) fs::copy_file(archive, seed(folder, "abc_groom", "own"));
+    if (isFinished) {
+      fs::copy_file(archive, seed(folder, "abc_groom", "own"));
+      fs::copy_file(archive, seed(folder, "foreign_frames", "archive"));
+    }
   }
   return {};
 }
@@ -375,7 +384,7 @@ void writeDictionaries(const fs::path& folder) {
                                      "primPath",
                                      "nan",
                                      "1e38"};
-  for (const char* fuzzer : {"usda_file", "usdc_file", "usdz_file", "usd_mesh"})
+  for (const char* fuzzer : {"usda_file", "usdc_file", "usdz_file", "usd_mesh", "foreign_frames"})
     write(folder / (std::string(fuzzer) + ".dict"), dictionary(usd));
   write(folder / "abc_mesh.dict",
         dictionary(std::vector<std::string>{"AbcGeom_PolyMesh_v1", "AbcGeom_SubD_v1", "AbcGeom_Xform_v3",
