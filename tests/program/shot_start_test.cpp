@@ -1,0 +1,162 @@
+// [start]: hair that begins as another run ended (scenes/load/shot_start.h, startOf of run/scene_run.h).
+#include "ringlet/scenes/load/shot_start.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "program/simulate/reference_hair.h"
+#include "ringlet/run/divided_hair.h"
+#include "ringlet/run/run.h"
+#include "ringlet/scenes/file/scene_file.h"
+#include "tests/support/gpu_test.h"
+#include "tests/support/test_support.h"
+
+namespace ringlet::shot_start_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kGroom =
+    "[groom]\ngenerate = \"swatch\"\ncolumns = 3\nrows = 2\nparticles = 24\nturns = 2\n";
+// The head moves and turns until 0.25 s, and then stays.
+const std::string kJerk =
+    "[[motion.key]]\ntime = 0\n[[motion.key]]\ntime = 0.25\nposition = [0.1, 0, 0.05]\n"
+    "rotate_degrees = [0, 40, 20]\n";
+// It stays elsewhere, turned as it was at the end.
+const std::string kStays = "[[motion.key]]\ntime = 0\nposition = [5, 1, 0]\nrotate_degrees = [0, 40, 20]\n";
+
+std::string from(const fs::path& run) { return fmt::format("[start]\nfrom = '{}'\n", run.string()); }
+std::string frames(int count) { return fmt::format("[simulation]\nframes = {}\n", count); }
+
+class ShotStartTest : public test::GpuTest {
+ protected:
+  LoadedScene load(const std::string& text) const {
+    const auto file = parseScene(text, "the scene");
+    EXPECT_TRUE(file) << file.error().message;
+    auto scene = loadScene(*file);
+    EXPECT_TRUE(scene) << scene.error().message;
+    return std::move(*scene);
+  }
+  std::string errorOf(const std::string& text) const {
+    const auto file = parseScene(text, "the scene");
+    if (!file) return file.error().message;
+    const auto scene = loadScene(*file);
+    return scene ? "none" : scene.error().message;
+  }
+
+  // Positions relative to the head, along the world's axes, of each frame.
+  std::vector<std::vector<Vec3f>> run(const std::string& text, const fs::path& folder = {}) {
+    std::vector<std::vector<Vec3f>> all;
+    const auto outcome =
+        runScene(load(text), {.folder = folder, .cache = CachePrecision::float32}, hairOn({device()}),
+                 {.computed = [&](const ComputedFrame& frame) { all.push_back(frame.positions); }});
+    EXPECT_TRUE(outcome) << outcome.error().message;
+    return all;
+  }
+
+  const fs::path folder_ = test::scratchFolder("shot_start");
+};
+
+double farthest(const std::vector<Vec3f>& a, const std::vector<Vec3f>& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, length(Vec3d(a[i]) - Vec3d(b[i])));
+  return most;
+}
+
+// A run in two is the run in one: what differs is that velocities are differences of frames.
+TEST_F(ShotStartTest, GoesOnAsOneRunWouldHave) {
+  const auto whole = run(kGroom + kJerk + frames(20));
+  run(kGroom + kJerk + frames(12), folder_);
+  const auto rest = run(kGroom + kStays + frames(8));
+  const auto second = run(kGroom + kStays + from(folder_) + frames(8));
+  ASSERT_EQ(second.size(), 8u);
+  for (std::size_t k = 0; k < second.size(); ++k) {
+    const double moves = farthest(whole[12 + k], rest[k]);
+    EXPECT_GT(moves, 2e-3) << "the hair swings";
+    EXPECT_LT(farthest(second[k], whole[12 + k]), 0.25 * moves) << k;
+  }
+}
+
+// Hair that is carried along begins with its head's motion as well.
+TEST_F(ShotStartTest, MovesAlongWithItsHead) {
+  run(kGroom + frames(3), folder_);
+  const std::string spin = "[motion]\nkind = \"spin\"\nease = 0\n";
+  const auto rest = run(kGroom + spin + frames(2)), begun = run(kGroom + spin + from(folder_) + frames(2));
+  for (std::size_t k = 0; k < 2; ++k) EXPECT_LT(farthest(begun[k], rest[k]), 1e-4) << k;
+}
+
+TEST_F(ShotStartTest, IsTheSameOnTheReference) {
+  run(kGroom + kJerk + frames(8), folder_);
+  const LoadedScene scene = load(kGroom + kStays + from(folder_) + frames(2));
+  const SceneFrames all(scene);
+  const auto reference = program::makeReferenceHair({scene, all}), gpu = hairOn({device()})({scene, all});
+  ASSERT_TRUE(reference && gpu);
+  EXPECT_LT(farthest(*(*reference)->positions(), *(*gpu)->positions()), 1e-6) << "at the start";
+  const auto frame = all.at(0);
+  ASSERT_TRUE(frame);
+  for (SceneHair* hair : {&**reference, &**gpu}) {
+    ASSERT_TRUE(hair->submit(*frame));
+    ASSERT_TRUE(hair->wait());
+  }
+  EXPECT_LT(farthest(*(*reference)->positions(), *(*gpu)->positions()), 2e-5) << "a frame later";
+}
+
+TEST_F(ShotStartTest, AnyFrameAndAnyFileWillDo) {
+  const auto first = run(kGroom + kJerk + frames(8), folder_);
+  const auto start = [&](const std::string& more) {
+    const LoadedScene scene = load(kGroom + more);
+    const SceneFrames all(scene);
+    return *(*hairOn({device()})({scene, all}))->positions();
+  };
+  // Seen from heads that stand differently, so roots are brought together by the turn of 40 and 20 degrees.
+  const auto last = start(kStays + from(folder_));
+  EXPECT_LT(farthest(last, first[7]), 1e-5);
+  EXPECT_LT(farthest(start(kStays + from(folder_ / "hair.rgc") + "frame = 8\n"), last), 1e-9);
+  EXPECT_GT(farthest(start(kStays + from(folder_) + "frame = 7\n"), last), 1e-4);
+}
+
+TEST_F(ShotStartTest, BlendHoldsHairToHowItBegan) {
+  run(kGroom + kJerk + frames(9), folder_);
+  // Another groom of the same strands: straighter and shorter curls.
+  const std::string other =
+      "[groom]\ngenerate = \"swatch\"\ncolumns = 3\nrows = 2\nparticles = 24\nturns = 1\n";
+  const LoadedScene scene = load(other + kStays + from(folder_));
+  const SceneFrames all(scene);
+  const auto start = *(*hairOn({device()})({scene, all}))->positions();
+  const auto sudden = run(other + kStays + from(folder_) + frames(12)),
+             held = run(other + kStays + from(folder_) + "blend = 8\n" + frames(12)),
+             rest = run(other + kStays + frames(12));
+  EXPECT_LT(farthest(held[0], start), 0.5 * farthest(sudden[0], start));
+  EXPECT_LT(farthest(held[11], rest[11]), farthest(held[0], rest[0])) << "it goes to the groom's own shape";
+}
+
+TEST_F(ShotStartTest, SaysWhatIsWrong) {
+  run(kGroom + frames(3), folder_);
+  const std::string fewer =
+      "[groom]\ngenerate = \"swatch\"\ncolumns = 2\nrows = 2\nparticles = 24\nturns = 2\n";
+  fs::create_directories(folder_ / "empty");
+  for (const auto& [text, part] : {
+           std::pair(fewer + from(folder_), "has 6 strands of 144 particles in all, the groom 4 of 96"),
+           std::pair(kGroom + from(folder_) + "frame = 4\n", "has frames 1 to 3; there is no frame 4"),
+           std::pair(kGroom + from(folder_ / "empty"), "holds no hair.usda"),
+           std::pair(kGroom + from(folder_ / "none.rgc"), "none.rgc"),
+           std::pair(kGroom + "[start]\nblend = 3\n", "no effect without start.from"),
+           std::pair(kGroom + "[motion]\nkind = \"shake\"\npre_roll = 1\n" + from(folder_),
+                     "found start.from and motion.pre_roll"),
+       })
+    EXPECT_NE(errorOf(text).find(part), std::string::npos) << errorOf(text);
+  const LoadedScene first = load(kGroom + from(folder_) + "frame = 1\n");
+  ASSERT_EQ(first.warnings.size(), 1u);
+  EXPECT_NE(first.warnings[0].find("begins without any"), std::string::npos) << first.warnings[0];
+  EXPECT_TRUE(load(kGroom + from(folder_)).warnings.empty());
+}
+
+}  // namespace
+}  // namespace ringlet::shot_start_test
