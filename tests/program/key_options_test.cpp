@@ -18,7 +18,8 @@
 namespace ringlet::program::key_options_test {
 namespace {
 
-constexpr const char* kTables[] = {"groom", "groom.cut", "motion", "simulation", "contacts", "output"};
+constexpr const char* kTables[] = {"groom",      "groom.cut", "motion", "start",
+                                   "simulation", "contacts",  "output"};
 
 // Spellings that scripts rely on.
 constexpr std::pair<const char*, const char*> kSpellings[] = {

@@ -55,10 +55,36 @@ void doubtLength(double share, const std::string& name, std::vector<std::string>
                   name, share));
 }
 
+// Of a particle's way a frame, at the last of one frame, two or three: exact where it goes on a parabola
+// through three.
+Vec3d slopeAtEnd(const std::vector<std::vector<Vec3d>>& frames, std::size_t particle) {
+  const auto at = [&](std::size_t back) { return frames[frames.size() - 1 - back][particle]; };
+  if (frames.size() == 1) return {};
+  if (frames.size() == 2) return at(0) - at(1);
+  return at(0) * 1.5 - at(1) * 2.0 + at(2) * 0.5;
+}
+
 // Nothing where the run has no such frame.
 std::optional<int> frameOf(const SceneStart& start, const AnimationReader& run) {
   const int frame = start.frame.value_or(run.frameCount());
   return frame >= 1 && frame <= run.frameCount() ? std::optional(frame) : std::nullopt;
+}
+
+// Of the groom's strands.
+Result<AnimationReader> openRun(const std::filesystem::path& file, const SceneFile& scene,
+                                const Groom& groom) {
+  const GroomReading reading = readingOf(scene.groom);
+  auto run = AnimationReader::open(file, {.metresPerUnit = scene.groom.metresPerUnit,
+                                          .upIsZ = reading.upIsZ,
+                                          .rootEnd = reading.rootEnd,
+                                          .pointsPerStrand = reading.pointsPerStrand,
+                                          .groom = scene.groom.file});
+  if (!run || run->groom().firstPoint == groom.firstPoint) return run;
+  return Error{fmt::format(
+      "{} has {} strands of {} particles in all, the groom {} of {}; expected the same strands, particle for "
+      "particle",
+      file.string(), run->groom().strandCount(), run->groom().firstPoint.back(), groom.strandCount(),
+      groom.points.size())};
 }
 
 }  // namespace
@@ -78,20 +104,9 @@ Result<ShotStart> loadShotStart(const SceneFile& scene, const Groom& groom, int 
                                 std::vector<std::string>& warnings) {
   const auto file = animationFileOf(scene.start.from);
   if (!file) return file.error();
-  const GroomReading reading = readingOf(scene.groom);
-  auto run = AnimationReader::open(*file, {.metresPerUnit = scene.groom.metresPerUnit,
-                                           .upIsZ = reading.upIsZ,
-                                           .rootEnd = reading.rootEnd,
-                                           .pointsPerStrand = reading.pointsPerStrand,
-                                           .groom = scene.groom.file});
-  if (!run) return run.error();
   const std::string name = file->string();
-  if (run->groom().firstPoint != groom.firstPoint)
-    return Error{fmt::format(
-        "{} has {} strands of {} particles in all, the groom {} of {}; expected the same strands, particle "
-        "for particle",
-        name, run->groom().strandCount(), run->groom().firstPoint.back(), groom.strandCount(),
-        groom.points.size())};
+  auto run = openRun(*file, scene, groom);
+  if (!run) return run.error();
   const auto frame = frameOf(scene.start, *run);
   if (!frame)
     return Error{fmt::format("{} has frames 1 to {}; there is no frame {}", name, run->frameCount(),
@@ -101,27 +116,24 @@ Result<ShotStart> loadShotStart(const SceneFile& scene, const Groom& groom, int 
     if (Status read = run->readFrame(k); !read) return read.error();
     return offsetsOf(groom, run->groom().points, unit, rootCount);
   };
-  std::vector<Vec3d> before;
-  if (*frame > 1) {
-    auto read = offsetsAt(*frame - 1);
+  // The frame and the two before it, as far as there are.
+  std::vector<std::vector<Vec3d>> offsets;
+  for (int k = std::max(1, *frame - 2); k <= *frame; ++k) {
+    auto read = offsetsAt(k);
     if (!read) return read.error();
-    before = std::move(*read);
+    offsets.push_back(std::move(*read));
   }
-  const auto offsets = offsetsAt(*frame);
-  if (!offsets) return offsets.error();
-  if (before.empty()) {
-    before = *offsets;
+  if (offsets.size() == 1)
     warnings.push_back(fmt::format(
         "frame 1 of {} has none before it, which velocities would follow from; hair begins without any",
         name));
-  }
   doubtLength(
       lengthOf(groom, run->groom().points) * unit / (lengthOf(groom, groom.points) * groom.metresPerUnit),
       name, warnings);
   ShotStart start;
-  for (std::size_t i = 0; i < offsets->size(); ++i) {
-    start.offsets.push_back(Vec3f((*offsets)[i]));
-    start.velocities.push_back(Vec3f(((*offsets)[i] - before[i]) * run->header().framesPerSecond));
+  for (std::size_t i = 0; i < offsets.back().size(); ++i) {
+    start.offsets.push_back(Vec3f(offsets.back()[i]));
+    start.velocities.push_back(Vec3f(slopeAtEnd(offsets, i) * run->header().framesPerSecond));
   }
   return start;
 }

@@ -24,10 +24,10 @@ struct ShotStart {
 };
 
 /// The other run's head is where its roots, the first `rootCount` particles of strands, say: the rigid motion
-/// that best brings the groom's there. Velocities are the differences of the frame and the one before. Adds
-/// warnings: a first frame, which has no velocities; strands of another length than the groom's. Errors: no
-/// such animation or frame; other strands than the groom's. Cost: the reading of two frames, of text of all
-/// up to them.
+/// that best brings the groom's there. Velocities are those of the parabola through the frame and the two
+/// before it. Adds warnings: a first frame, which has no velocities; strands of another length than the
+/// groom's. Errors: no such animation or frame; other strands than the groom's. Cost: the reading of two
+/// frames, of text of all up to them.
 Result<ShotStart> loadShotStart(const SceneFile& scene, const Groom& groom, int rootCount,
                                 std::vector<std::string>& warnings);
 
