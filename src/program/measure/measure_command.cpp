@@ -13,6 +13,8 @@
 #include "program/cli/keys_help.h"
 #include "program/cli/standard_error.h"
 #include "program/cli/standard_output.h"
+#include "program/measure/benchmark_cases.h"
+#include "program/measure/benchmark_score.h"
 #include "program/measure/measure_plot.h"
 #include "program/measure/measure_report.h"
 #include "program/measure/measure_run.h"
@@ -31,6 +33,8 @@ constexpr const char* kMeasureExample =
     "                                                three runs: do contacts let hair move as they should?\n"
     "  ringlet measure groom.obj out --plot out.svg --over softer --over stiffer\n"
     "                                                three motions of it over each other\n"
+    "  ringlet measure --benchmark bench --write     the neutral benchmark's files, for any simulator\n"
+    "  ringlet measure --benchmark bench             how well their runs went\n"
     "\n"
     "A USD file (.usda, .usdc, .usd, .usdz) states its unit and its up axis; --unit and --up go before "
     "them.\n"
@@ -55,10 +59,25 @@ constexpr const char* kMeasureExitHelp =
 // The command line as typed.
 struct TypedMeasure {
   MeasurePlan plan;
-  bool json = false, strands = false;
+  std::filesystem::path benchmark;
+  bool json = false, strands = false, write = false;
 };
 
+Status runBenchmark(const TypedMeasure& typed) {
+  if (typed.write) return writeBenchmark(typed.benchmark);
+  const auto scores = scoreBenchmark(typed.benchmark);
+  if (!scores) return scores.error();
+  typed.json ? printJson(benchmarkJson(*scores)) : print("{}", benchmarkText(*scores));
+  return {};
+}
+
 int run(const TypedMeasure& typed) {
+  if (typed.benchmark.empty() == typed.plan.rest.empty())
+    throw CLI::ValidationError("REST", "name a groom at rest, or the folder of --benchmark");
+  if (!typed.benchmark.empty()) {
+    const Status done = runBenchmark(typed);
+    return done ? kExitFine : fail("measure", done.error());
+  }
   auto measured = runMeasure(typed.plan);
   if (!measured) return fail("measure", measured.error());
   if (typed.json) {
@@ -74,11 +93,11 @@ int run(const TypedMeasure& typed) {
 void addMeasureCommand(CLI::App& app, int& exitCode) {
   auto typed = std::make_shared<TypedMeasure>();
   CLI::App* command = app.add_subcommand("measure", "Measures the curl of a groom, and what became of it");
-  command->footer(kMeasureExample + keysHelp(measureKeys()) + kMeasureExitHelp);
+  command->footer(kMeasureExample + keysHelp(measureKeys()) +
+                  keysHelp(benchmarkKeys(), "--json keys with --benchmark:") + kMeasureExitHelp);
   command
       ->add_option("REST", typed->plan.rest,
                    "The groom at rest: a .hair, .obj, .usd, .abc, .tfx, .ply, .data or .bin file")
-      ->required()
       ->type_name("FILE");
   command
       ->add_option("OTHER", typed->plan.other,
@@ -118,6 +137,14 @@ void addMeasureCommand(CLI::App& app, int& exitCode) {
       ->needs(plotted)
       ->type_name("PATH")
       ->allow_extra_args(false);
+  CLI::Option* benchmark =
+      command
+          ->add_option("--benchmark", typed->benchmark,
+                       "In place of REST: the folder of the neutral benchmark, whose cases "
+                       "any simulator ran; says how well each went")
+          ->type_name("DIR");
+  command->add_flag("--write", typed->write, "Write the files of the benchmark's cases into DIR")
+      ->needs(benchmark);
   command->add_flag("--strands", typed->strands, "Every strand by itself too");
   command->add_flag("--json", typed->json, "Print one JSON object instead of tables");
   command->callback([typed, &exitCode] { exitCode = run(*typed); });
