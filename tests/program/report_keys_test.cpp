@@ -143,14 +143,19 @@ TEST_F(ReportKeys, OfMeasure) {
   for (const char* contacts : {"off", "explicit"}) simulate(contacts);
   if (std::system("command -v gnuplot > /dev/null") != 0)
     GTEST_SKIP() << "SKIPPED: gnuplot is not installed, so that not every key is there";
+  ASSERT_EQ(runProgram(folder_, {"measure", "--benchmark", "bench", "--write"}).exitCode, 0);
+  std::filesystem::copy_file(folder_ / "bench/hang_8/carried.usdc", folder_ / "bench/hang_8/hair.usdc");
   expectInHelp({"measure"}, {{"measure", "groom.obj", "explicit", "--against", "explicit", "--without", "off",
-                              "--strands", "--plot", "plot.svg"}});
+                              "--strands", "--plot", "plot.svg"},
+                             {"measure", "--benchmark", "bench"}});
 }
 
 TEST_F(ReportKeys, OfInfo) {
   make("groom.obj");
-  expectInHelp({"info"},
-               {{"info", "groom.obj", "--fix", "fixed.obj"}, {"info", "groom.obj", "--unit", "0.02"}});
+  simulate("off");
+  expectInHelp({"info"}, {{"info", "groom.obj", "--fix", "fixed.obj"},
+                          {"info", "groom.obj", "--unit", "0.02"},
+                          {"info", "off/hair.usda"}});
 }
 
 TEST_F(ReportKeys, OfConvert) {
