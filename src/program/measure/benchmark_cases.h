@@ -17,6 +17,7 @@ struct BenchmarkCase {
   int particles;      // of each strand
   int strands;        // 0: the scene's
   double seconds;
+  double until;  // when the head stops [s]; 0: as the scene has it
   const char* summary;
 };
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "program/measure/benchmark_cases.h"
+#include "program/measure/measure_report.h"
 #include "ringlet/measure/body_watch.h"
 #include "ringlet/measure/contact_quality.h"
 #include "ringlet/measure/crossings.h"
@@ -150,7 +151,9 @@ Score scoreCase(const fs::path& folder, const LoadedScene& scene) {
   return *score;
 }
 
-Json millimetresOf(std::optional<double> metres) { return metres ? Json(1000 * *metres) : Json(); }
+std::optional<double> millimetres(std::optional<double> metres) {
+  return metres ? std::optional(1000 * *metres) : std::nullopt;
+}
 
 constexpr ReportRow<Score> kScoreRows[] = {
     {{"case", "", "Its folder."}, [](const Score& s) -> Json { return s.name; }},
@@ -160,15 +163,15 @@ constexpr ReportRow<Score> kScoreRows[] = {
     {{"frames", "", "Frames."}, [](const Score& s) -> Json { return s.frameCount; }},
     {{"expected_frames", "", "Frames of the case."}, [](const Score& s) -> Json { return s.expectedCount; }},
     {{"roots_mm", "mm", "Farthest of a root from where it should be."},
-     [](const Score& s) { return millimetresOf(s.roots); }},
+     [](const Score& s) { return orNull(millimetres(s.roots)); }},
     {{"stretch", "1", "Of the longest edge of all frames, beyond rest."},
      [](const Score& s) -> Json { return s.stretch; }},
     {{"droop_mm", "mm", "How far tips have sunk at last, mean."},
-     [](const Score& s) { return millimetresOf(s.droop); }},
+     [](const Score& s) { return orNull(millimetres(s.droop)); }},
     {{"turns", "1", "Turns of curls at last, as a share of those at rest."},
      [](const Score& s) -> Json { return s.turns; }},
     {{"motion_mm", "mm", "Farthest way of a particle in the last frame."},
-     [](const Score& s) { return millimetresOf(s.motion); }},
+     [](const Score& s) { return orNull(millimetres(s.motion)); }},
     {{"settle_s", "s", "Until hair is at rest after the head's last motion; null: it is not."},
      [](const Score& s) { return orNull(s.settle); }},
     {{"crossings", "1", "Passes of hairs through each other, a strand; null: of one strand."},
@@ -176,7 +179,7 @@ constexpr ReportRow<Score> kScoreRows[] = {
     {{"overlap", "1", "Deepest overlap beyond rest, as a share of the hairs' width; null: of one strand."},
      [](const Score& s) { return orNull(s.overlap); }},
     {{"depth_mm", "mm", "Deepest place of a particle in the body; null without one."},
-     [](const Score& s) { return millimetresOf(s.depth); }},
+     [](const Score& s) { return orNull(millimetres(s.depth)); }},
 };
 
 std::vector<ReportKey> scoreKeys() { return keysOf<kScoreRows>(); }
@@ -190,7 +193,7 @@ constexpr ReportRow<BenchmarkScores> kBenchmarkRows[] = {
      }},
     {{"resolution_mm", "mm",
       "How far the tips of the hanging curl are apart in height, at 8 to 128 points; null: not all were run."},
-     [](const BenchmarkScores& s) { return millimetresOf(s.resolution); }},
+     [](const BenchmarkScores& s) { return orNull(millimetres(s.resolution)); }},
 };
 
 std::optional<double> resolutionOf(const std::vector<Score>& scores) {
@@ -202,10 +205,6 @@ std::optional<double> resolutionOf(const std::vector<Score>& scores) {
     high = std::max(high, score.droop);
   }
   return high >= low ? std::optional(high - low) : std::nullopt;
-}
-
-std::string shownOr(std::optional<double> value, double factor, int digits) {
-  return value ? fmt::format("{:.{}f}", factor * *value, digits) : "-";
 }
 
 }  // namespace
@@ -249,13 +248,13 @@ std::string benchmarkText(const BenchmarkScores& scores) {
       text += fmt::format("{:<10} {}{}{}\n", s.name, s.file, s.file.empty() ? "" : ": ", s.problem);
       continue;
     }
-    text += fmt::format("{:<10} {:>9.3f} {:>9.2f} {:>9.3f} {:>7.3f} {:>10.4f} {:>8} {:>9} {:>8} {:>9}\n",
-                        s.name, 1000 * s.roots, 100 * s.stretch, 1000 * s.droop, s.turns, 1000 * s.motion,
-                        shownOr(s.settle, 1, 2), shownOr(s.crossings, 1, 2), shownOr(s.overlap, 1, 3),
-                        shownOr(s.depth, 1000, 3));
+    text += fmt::format("{:<10} {:>9} {:>9} {:>9} {:>7} {:>10} {:>8} {:>9} {:>8} {:>9}\n", s.name,
+                        shown(1000 * s.roots, 3), shown(100 * s.stretch, 2), shown(1000 * s.droop, 3),
+                        shown(s.turns, 3), shown(1000 * s.motion, 4), shown(s.settle, 2),
+                        shown(s.crossings, 2), shown(s.overlap, 3), shown(millimetres(s.depth), 3));
   }
   return text + fmt::format("\nhanging curl at 8 to 128 points: tips {} mm apart in height\n",
-                            shownOr(scores.resolution, 1000, 3));
+                            shown(millimetres(scores.resolution), 3));
 }
 
 }  // namespace ringlet::program
