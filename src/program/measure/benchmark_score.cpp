@@ -151,7 +151,7 @@ Score scoreCase(const fs::path& folder, const LoadedScene& scene) {
   return *score;
 }
 
-std::optional<double> millimetres(std::optional<double> metres) {
+std::optional<double> inMillimetres(std::optional<double> metres) {
   return metres ? std::optional(1000 * *metres) : std::nullopt;
 }
 
@@ -163,15 +163,15 @@ constexpr ReportRow<Score> kScoreRows[] = {
     {{"frames", "", "Frames."}, [](const Score& s) -> Json { return s.frameCount; }},
     {{"expected_frames", "", "Frames of the case."}, [](const Score& s) -> Json { return s.expectedCount; }},
     {{"roots_mm", "mm", "Farthest of a root from where it should be."},
-     [](const Score& s) { return orNull(millimetres(s.roots)); }},
+     [](const Score& s) { return orNull(inMillimetres(s.roots)); }},
     {{"stretch", "1", "Of the longest edge of all frames, beyond rest."},
      [](const Score& s) -> Json { return s.stretch; }},
     {{"droop_mm", "mm", "How far tips have sunk at last, mean."},
-     [](const Score& s) { return orNull(millimetres(s.droop)); }},
+     [](const Score& s) { return orNull(inMillimetres(s.droop)); }},
     {{"turns", "1", "Turns of curls at last, as a share of those at rest."},
      [](const Score& s) -> Json { return s.turns; }},
     {{"motion_mm", "mm", "Farthest way of a particle in the last frame."},
-     [](const Score& s) { return orNull(millimetres(s.motion)); }},
+     [](const Score& s) { return orNull(inMillimetres(s.motion)); }},
     {{"settle_s", "s", "Until hair is at rest after the head's last motion; null: it is not."},
      [](const Score& s) { return orNull(s.settle); }},
     {{"crossings", "1", "Passes of hairs through each other, a strand; null: of one strand."},
@@ -179,7 +179,7 @@ constexpr ReportRow<Score> kScoreRows[] = {
     {{"overlap", "1", "Deepest overlap beyond rest, as a share of the hairs' width; null: of one strand."},
      [](const Score& s) { return orNull(s.overlap); }},
     {{"depth_mm", "mm", "Deepest place of a particle in the body; null without one."},
-     [](const Score& s) { return orNull(millimetres(s.depth)); }},
+     [](const Score& s) { return orNull(inMillimetres(s.depth)); }},
 };
 
 std::vector<ReportKey> scoreKeys() { return keysOf<kScoreRows>(); }
@@ -193,7 +193,7 @@ constexpr ReportRow<BenchmarkScores> kBenchmarkRows[] = {
      }},
     {{"resolution_mm", "mm",
       "How far the tips of the hanging curl are apart in height, at 8 to 128 points; null: not all were run."},
-     [](const BenchmarkScores& s) { return orNull(millimetres(s.resolution)); }},
+     [](const BenchmarkScores& s) { return orNull(inMillimetres(s.resolution)); }},
 };
 
 std::optional<double> resolutionOf(const std::vector<Score>& scores) {
@@ -251,10 +251,10 @@ std::string benchmarkText(const BenchmarkScores& scores) {
     text += fmt::format("{:<10} {:>9} {:>9} {:>9} {:>7} {:>10} {:>8} {:>9} {:>8} {:>9}\n", s.name,
                         shown(1000 * s.roots, 3), shown(100 * s.stretch, 2), shown(1000 * s.droop, 3),
                         shown(s.turns, 3), shown(1000 * s.motion, 4), shown(s.settle, 2),
-                        shown(s.crossings, 2), shown(s.overlap, 3), shown(millimetres(s.depth), 3));
+                        shown(s.crossings, 2), shown(s.overlap, 3), shown(inMillimetres(s.depth), 3));
   }
   return text + fmt::format("\nhanging curl at 8 to 128 points: tips {} mm apart in height\n",
-                            shown(millimetres(scores.resolution), 3));
+                            shown(inMillimetres(scores.resolution), 3));
 }
 
 }  // namespace ringlet::program
