@@ -341,14 +341,13 @@ void addReader(py::module_& module) {
   py::class_<FramesObject>(
       module, "AnimationReader",
       fmt::format(
-          "The frames of a {} file that Ringlet wrote, one after the other: `for points in "
-          "ringlet.AnimationReader(path)` gives (particles, 3) float32 in the file's unit. Of a .partial "
-          "those that are whole. Goes through once.",
+          "The frames of a {} file that Ringlet wrote, or of another program's animation (docs/formats.md), one "
+          "after the other: `for points in ringlet.AnimationReader(path)` gives (particles, 3) float32 in the "
+          "file's unit. Of a .partial those that are whole. Goes through once.",
           animationEndings(&AnimationFormat::isRead, "or"))
           .c_str())
       .def(py::init([](const std::filesystem::path& path) { return std::make_unique<FramesObject>(path); }),
-           py::arg("path"),
-           "ringlet.Error for a file that is missing or damaged, or that another program wrote.")
+           py::arg("path"), "ringlet.Error for a file that is missing or damaged, or in which nothing moves.")
       .def_property_readonly("frame_count", &FramesObject::frameCount, "How many frames there are.")
       .def_property_readonly(
           "fps", [](const FramesObject& self) { return self.reader().header().framesPerSecond; },

@@ -38,8 +38,8 @@ constexpr const char* kMeasureExample =
     "\n"
     "A USD file (.usda, .usdc, .usd, .usdz) states its unit and its up axis; --unit and --up go before "
     "them.\n"
-    "OTHER is a groom with the same strands, a folder that `ringlet simulate` wrote, or its hair.usda or\n"
-    "hair.rgc.\n"
+    "OTHER is a groom with the same strands, a folder that `ringlet simulate` wrote, or an animation, of Ringlet\n"
+    "or of another program.\n"
     "A hair.usda may be the groom as well: its first frame is.\n"
     "In an animation the groom counts as the frame before the first; tables show the last frame.\n"
     "Everything is seen from the head: each strand from its root, turned as the roots together turn (one\n"
@@ -101,7 +101,7 @@ void addMeasureCommand(CLI::App& app, int& exitCode) {
       ->type_name("FILE");
   command
       ->add_option("OTHER", typed->plan.other,
-                   "What became of it: a pose (a groom's file), a folder, a hair.usda or hair.rgc")
+                   "What became of it: a pose (a groom's file), a folder, an animation")
       ->type_name("PATH");
   command
       ->add_option(

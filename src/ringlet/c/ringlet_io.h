@@ -200,7 +200,8 @@ typedef struct ringlet_frames_facts {
   uint32_t frame_count, strand_count;
   uint64_t particle_count;
 } ringlet_frames_facts;
-/* Opens a .usda, .usdc, .abc or .rgc that Ringlet wrote; of a .partial the frames that are whole. */
+/* Opens a .usda, .usdc, .abc or .rgc that Ringlet wrote, of a .partial the frames that are whole; or another
+   program's animation (docs/formats.md). */
 ringlet_result ringlet_frames_open(const char* path, ringlet_warn warn, void* user, ringlet_frames** frames);
 ringlet_result ringlet_frames_get(const ringlet_frames* frames, ringlet_frames_facts* facts);
 /* The next frame's points in the world, in the file's unit. After the last: an error. */
