@@ -134,6 +134,7 @@ HairHandle startHair(const SceneObject& self, DeviceHandle device, const std::st
   const SceneFrames frames(scene);
   const ScenePlaces start = frames.placesAt(frames.first());
   HairHandle hair = makeHair(asset, stateOf(start, scene));
+  if (scene.start) hair->setState(startOf({hair->positions(), hair->velocities()}, start, scene));
   for (int frame = frames.first(); frame < 0; ++frame) {
     const SceneFrame now = frameOf(scene, frame);
     prepareFrame(now, *hair);

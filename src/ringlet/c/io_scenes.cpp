@@ -235,6 +235,7 @@ ringlet_result ringlet_scene_hair(const ringlet_scene* scene, ringlet_asset* ass
     ringlet_hair* made = nullptr;
     if (Outcome wrong = createHair(*asset, stateOf(start, of), &made); !wrong.isFine()) return wrong;
     std::unique_ptr<ringlet_hair> kept(made);
+    if (Status begun = beginShot(start, of, kept->simulation); !begun) return begun;
     for (int frame = frames.first(); frame < 0; ++frame) {
       if (Status stepped = stepScene(frames, kept->simulation, frame); !stepped) return stepped;
     }
