@@ -78,10 +78,27 @@ TEST_P(GoalAnimations, AreOfTheSameStrands) {
   EXPECT_FALSE(GoalAnimation::open(folder_ / fmt::format("none{}", GetParam()), groom, {.upIsZ = false}));
 }
 
+// Another program's file, which states neither rate nor unit nor axis.
+TEST(GoalAnimation, OfAPointCacheIsOfTheGroom) {
+  const auto folder = test::scratchFolder("goal_cache");
+  const Groom groom = swatch();
+  writeAnimation(folder / "hair.pc2", groom);
+  const auto opened = GoalAnimation::open(
+      folder / "hair.pc2", groom,
+      {.metresPerUnit = groom.metresPerUnit, .upIsZ = true, .framesPerSecond = kFramesPerSecond});
+  ASSERT_TRUE(opened) << opened.error().message;
+  const auto places = (*opened)->placesAt(0.25, HeadPose{});
+  ASSERT_TRUE(places) << places.error().message;
+  for (std::size_t i = 0; i < groom.points.size(); ++i) {
+    const Vec3d world = Vec3d(groom.points[i]) * groom.metresPerUnit + Vec3d{0.25, 0, 0};
+    ASSERT_LT(length(Vec3d((*places)[i]) - world), 2e-6);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Formats, GoalAnimations, testing::ValuesIn([] {
                            std::vector<const char*> read;
                            for (const AnimationFormat& format : animationFormats())
-                             read.push_back(format.extension);
+                             if (format.isRead) read.push_back(format.extension);
                            return read;
                          }()),
                          [](const auto& of) { return std::string(of.param + 1); });

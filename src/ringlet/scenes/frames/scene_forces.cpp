@@ -199,6 +199,7 @@ Status SceneForces::loadGoal(const SceneFile& scene, const Groom& groom) {
                                           .upIsZ = scene.groom.up == "Z",
                                           .rootEnd = reading.rootEnd,
                                           .pointsPerStrand = reading.pointsPerStrand,
+                                          .framesPerSecond = scene.simulation.framesPerSecond,
                                           .groom = scene.groom.file});
     if (!animation) return animation.error();
     animation_ = std::move(*animation);

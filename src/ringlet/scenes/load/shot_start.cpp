@@ -78,6 +78,7 @@ Result<AnimationReader> openRun(const std::filesystem::path& file, const SceneFi
                                           .upIsZ = reading.upIsZ,
                                           .rootEnd = reading.rootEnd,
                                           .pointsPerStrand = reading.pointsPerStrand,
+                                          .framesPerSecond = scene.simulation.framesPerSecond,
                                           .groom = scene.groom.file});
   if (!run || run->groom().firstPoint == groom.firstPoint) return run;
   return Error{fmt::format(
