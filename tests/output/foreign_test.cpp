@@ -1,4 +1,5 @@
 // Animations of other programs: curves that move in USD and Alembic, a file a frame, point caches.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +34,7 @@ std::string movingCurve(const std::vector<std::pair<double, double>>& xOfTime, c
                      "  int[] curveVertexCounts = [3]\n  float[] widths = [0.2, 0.2, 0.1]\n"
                      "  point3f[] points.timeSamples = {\n";
   for (const auto& [time, x] : xOfTime)
-    text += std::to_string(time) + ": [(" + std::to_string(x) + ", 0, 1), (1, 0, 1), (2, 0, 1)],\n";
+    text += fmt::format("{}", time) + ": [(" + std::to_string(x) + ", 0, 1), (1, 0, 1), (2, 0, 1)],\n";
   return text + "  }\n }\n}\n";
 }
 
@@ -130,6 +131,16 @@ TEST(Foreign, AGroomThatDoesNotMoveIsNone) {
   ASSERT_FALSE(reader);
   EXPECT_NE(reader.error().message.find("none of its curves move"), std::string::npos)
       << reader.error().message;
+}
+
+TEST(Foreign, TimesOfNoAnimationAreRefused) {
+  const fs::path path = scratchFolder("foreign") / "hair.usda";
+  for (const auto& [first, last] : {std::pair(-1e308, 1e308), std::pair(0.0, 1e9), std::pair(0.0, 1e-6)}) {
+    put(path, movingCurve({{first, 0}, {last, 1}}));
+    const auto reader = AnimationReader::open(path);
+    ASSERT_FALSE(reader) << last;
+    EXPECT_NE(reader.error().message.find("frames a second"), std::string::npos) << reader.error().message;
+  }
 }
 
 TEST(Foreign, AFrameOfOtherStrandsIsRefused) {

@@ -76,7 +76,12 @@ class CurveFrames final : public ForeignFrames {
     if (!groom) return groom.error();
     if (groom->seconds().size() < 2)
       return Error{fmt::format("{}: none of its curves move: it is a groom and no animation", path.string())};
-    return std::unique_ptr<ForeignFrames>(std::make_unique<CurveFrames>(path, std::move(*groom)));
+    auto self = std::make_unique<CurveFrames>(path, std::move(*groom));
+    constexpr double kSlowest = 1e-6, kFastest = 1e6;  // frames a second
+    if (!(self->framesPerSecond() >= kSlowest && self->framesPerSecond() <= kFastest))
+      return Error{fmt::format("{}: its samples make {} frames a second; expected {} to {}", path.string(),
+                               self->framesPerSecond(), kSlowest, kFastest)};
+    return std::unique_ptr<ForeignFrames>(std::move(self));
   }
 
   CurveFrames(const fs::path& path, MovingGroom groom)
