@@ -189,8 +189,7 @@ class CachedFrames final : public ForeignFrames {
     if (groom.empty()) groom = fs::path(path).replace_extension(".obj");
     if (reading.groom.empty() && !fs::exists(groom, code))
       return Error{fmt::format(
-          "{}: holds points without strands; expected the groom whose points they are beside it, {}, or by "
-          "--groom",
+          "{}: holds points without strands; expected the groom whose points they are, {} or another that is named",
           path.string(), groom.string())};
     auto self = std::make_unique<CachedFrames>();
     self->path_ = path;
