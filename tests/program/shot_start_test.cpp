@@ -97,7 +97,9 @@ TEST_F(ShotStartTest, GoesOnAsOneRunWouldHave) {
 // Hair that is carried along begins with its head's motion as well.
 TEST_F(ShotStartTest, MovesAlongWithItsHead) {
   run(kGroom + frames(3), folder_);
-  const std::string spin = "[motion]\nkind = \"spin\"\nease = 0\n";
+  const std::string spin =
+      "[[motion.key]]\ntime = -0.1\nrotate_degrees = [0, -30, 0]\n"
+      "[[motion.key]]\ntime = 0.1\nrotate_degrees = [0, 30, 0]\n";
   const auto rest = run(kGroom + spin + frames(2)), begun = run(kGroom + spin + from(folder_) + frames(2));
   for (std::size_t k = 0; k < 2; ++k) EXPECT_LT(farthest(begun[k], rest[k]), 1e-4) << k;
 }
