@@ -1,7 +1,6 @@
 // Implements run/scene_run.h.
 #include "ringlet/run/scene_run.h"
 
-#include <cmath>
 #include <utility>
 
 #include "ringlet/run/scene_hair.h"
@@ -51,10 +50,8 @@ InitialState stateOf(const ScenePlaces& places, const LoadedScene& scene) {
 
 HairState startOf(HairState atRest, const ScenePlaces& places, const LoadedScene& scene) {
   const ShotStart& start = *scene.start;
-  const Quatd head = places.head.rotation, turn = head * places.headEarlier.rotation.conjugate();
-  const double sign = turn.w < 0 ? -1 : 1, half = length(Vec3d{turn.x, turn.y, turn.z});
-  const Vec3d axis = half > 0 ? Vec3d{turn.x, turn.y, turn.z} * (sign / half) : Vec3d{};
-  const Vec3d spin = axis * (2 * std::atan2(half, sign * turn.w) / scene.settings.stepSeconds());
+  const Quatd head = places.head.rotation, turn = places.headEarlier.rotation * head.conjugate();
+  const double step = scene.settings.stepSeconds();
   const Groom& groom = scene.groom;
   for (std::size_t s = 0; s < groom.strandCount(); ++s) {
     const std::uint32_t first = groom.firstPoint[s];
@@ -63,7 +60,8 @@ HairState startOf(HairState atRest, const ScenePlaces& places, const LoadedScene
          ++i) {
       const Vec3d place = root + rotate(head, Vec3d(start.offsets[i]));
       atRest.positions[i] = Vec3f(place);
-      atRest.velocities[i] = Vec3f(cross(spin, place) + rotate(head, Vec3d(start.velocities[i])));
+      atRest.velocities[i] =
+          Vec3f((place - rotate(turn, place)) * (1 / step) + rotate(head, Vec3d(start.velocities[i])));
     }
   }
   return atRest;
