@@ -123,6 +123,45 @@ TEST(Foreign, OnlyWhatMovesTheCurvesHasTimes) {
   EXPECT_EQ(reader->frameCount(), 2);
 }
 
+TEST(Foreign, HairThatIsNotDrawnMovesNothing) {
+  const fs::path path = scratchFolder("foreign") / "hair.usda";
+  std::string hidden = movingCurve({{1, 0}, {2, 1}}).substr(metadata("").size());
+  const std::string prim = "def BasisCurves \"Hair\" {\n";
+  hidden.insert(hidden.find(prim) + prim.size(), "  token visibility = \"invisible\"\n");
+  std::string shown = movingCurve({{1, 0}});
+  shown.replace(shown.find("\"Head\""), 6, "\"Other\"");
+  put(path, shown + hidden);
+  EXPECT_FALSE(holdsAnimation(path));
+}
+
+// As at its first sample.
+TEST(Foreign, HairThatIsHiddenLaterStays) {
+  const fs::path path = scratchFolder("foreign") / "hair.usda";
+  std::string text = movingCurve({{1, 0}, {2, 1}});
+  const std::string prim = "def BasisCurves \"Hair\" {\n";
+  text.insert(text.find(prim) + prim.size(),
+              "  token visibility.timeSamples = {1: \"inherited\", 2: \"invisible\"}\n");
+  put(path, text);
+  auto reader = AnimationReader::open(path);
+  ASSERT_TRUE(reader) << reader.error().message;
+  EXPECT_EQ(xOfFrames(*reader), (std::vector<float>{0, 1}));
+}
+
+TEST(Foreign, HairThatIsNotThereAtFirstBeginsWhereItIs) {
+  const fs::path path = scratchFolder("foreign") / "hair.usda";
+  put(path, metadata("") +
+                "def BasisCurves \"Hair\" {\n uniform token type = \"linear\"\n"
+                " int[] curveVertexCounts.timeSamples = {1: [], 2: [], 3: [2], 4: [2], 5: [2]}\n"
+                " point3f[] points.timeSamples = {1: [], 2: [], 3: [(3, 0, 0), (1, 0, 0)],\n"
+                "  4: [(4, 0, 0), (1, 0, 0)], 5: [(5, 0, 0), (1, 0, 0)]}\n}\n");
+  auto reader = AnimationReader::open(path);
+  ASSERT_TRUE(reader) << reader.error().message;
+  EXPECT_EQ(reader->header().framesPerSecond, 24);
+  EXPECT_EQ(xOfFrames(*reader), (std::vector<float>{3, 4, 5}));
+  ASSERT_EQ(reader->warnings().size(), 1U);
+  EXPECT_NE(reader->warnings()[0].find("no hair before 0.125 s"), std::string::npos) << reader->warnings()[0];
+}
+
 TEST(Foreign, AGroomThatDoesNotMoveIsNone) {
   const fs::path path = scratchFolder("foreign") / "hair.usda";
   put(path, movingCurve({{1, 0}}));

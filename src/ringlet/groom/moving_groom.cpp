@@ -22,15 +22,6 @@
 #include "ringlet/groom/usd/usdz_file.h"
 
 namespace ringlet {
-namespace {
-
-void sortOnce(std::vector<double>& times) {
-  std::ranges::sort(times);
-  times.erase(std::unique(times.begin(), times.end()), times.end());
-}
-
-}  // namespace
-
 // A file of either format. Its bytes outlive all views of them.
 class MovingGroom::Layer {
  public:
@@ -38,7 +29,7 @@ class MovingGroom::Layer {
       : bytes_(std::move(bytes)), path_(path) {}
   virtual ~Layer() = default;
 
-  virtual Status open(std::vector<double>& seconds) = 0;
+  virtual Status open(std::vector<double>& seconds) = 0;  // adds its times, in any order
   virtual Result<LoadedGroom> at(double seconds, const GroomReading& reading) = 0;
 
   class Alembic;
@@ -90,7 +81,7 @@ class MovingGroom::Layer::Usd final : public Layer {
     const auto rate = usdTimeCodesPerSecond(*layer, name);
     if (!rate) return rate.error();
     codesPerSecond_ = *rate;
-    for (const double code : codesOf(*layer)) seconds.push_back(code / *rate);
+    for (const double code : usdGroomTimes(*layer, name)) seconds.push_back(code / *rate);
     if (isText_) text_ = std::move(*layer);
     return {};
   }
@@ -109,35 +100,15 @@ class MovingGroom::Layer::Usd final : public Layer {
   }
 
  private:
-  // Of curves, and of what is above them.
-  static std::vector<double> codesOf(const UsdLayer& layer) {
-    std::vector<bool> isAbove(layer.prims.size(), false);
-    for (std::uint32_t p = 0; p < layer.prims.size(); ++p) {
-      if (layer.prims[p].type != "BasisCurves") continue;
-      for (std::uint32_t above = p; above != kNoUsdPrim && !isAbove[above]; above = layer.prims[above].parent)
-        isAbove[above] = true;
-    }
-    std::vector<double> codes;
-    for (std::uint32_t p = 0; p < layer.prims.size(); ++p) {
-      if (!isAbove[p]) continue;
-      for (const UsdAttribute& attribute : layer.prims[p].attributes) {
-        if (!attribute.isSampled || !goesBetweenUsdSamples(attribute.name)) continue;
-        for (const UsdSample& sample : attribute.samples) codes.push_back(sample.time);
-        for (const UsdSamplePlace& place : attribute.places) codes.push_back(place.time);
-      }
-    }
-    sortOnce(codes);
-    return codes;
-  }
-
   void moveTo(double code) {
     for (UsdPrim& prim : text_.prims)
       for (UsdAttribute& attribute : prim.attributes) {
         if (attribute.samples.empty()) continue;
-        const auto after = std::ranges::upper_bound(attribute.samples, code, {}, &UsdSample::time);
+        const double at = usdTimeOf(attribute.name, code);
+        const auto after = std::ranges::upper_bound(attribute.samples, at, {}, &UsdSample::time);
         const UsdSample& before = after == attribute.samples.begin() ? *after : *(after - 1);
         attribute.value =
-            goesBetweenUsdSamples(attribute.name) ? usdValueAt(attribute.samples, code) : before.value;
+            goesBetweenUsdSamples(attribute.name) ? usdValueAt(attribute.samples, at) : before.value;
         attribute.isSampled = false;
       }
   }
@@ -163,7 +134,10 @@ Result<MovingGroom> MovingGroom::open(const std::filesystem::path& path) {
     layer = std::make_unique<Layer::Usd>(std::move(*bytes), path);
   }
   MovingGroom moving(std::move(layer));
-  if (Status opened = moving.layer_->open(moving.seconds_); !opened) return opened.error();
+  std::vector<double>& seconds = moving.seconds_;
+  if (Status opened = moving.layer_->open(seconds); !opened) return opened.error();
+  std::ranges::sort(seconds);
+  seconds.erase(std::unique(seconds.begin(), seconds.end()), seconds.end());
   return moving;
 }
 

@@ -25,8 +25,8 @@ class MovingGroom {
   const std::vector<double>& seconds() const { return seconds_; }
 
   /// What readGroom() gives, but of this time: points and transforms go straight between two samples, all
-  /// else is as at the sample before; GroomReading::rootEnd is left aside. Errors: as there. Cost: the file's
-  /// structure, and two samples.
+  /// else is as at the sample before, and visibility as at the first; GroomReading::rootEnd is left aside.
+  /// Errors: as there. Cost: the file's structure, and two samples.
   Result<LoadedGroom> at(double seconds, const GroomReading& reading) const;
 
  private:

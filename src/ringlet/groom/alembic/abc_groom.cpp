@@ -80,8 +80,6 @@ class AbcGroomMaker {
       for (const double seconds : timesOf(object)) all.push_back(seconds);
       if (!budget_.state()) return budget_.state().error();
     }
-    std::ranges::sort(all);
-    all.erase(std::unique(all.begin(), all.end()), all.end());
     return all;
   }
 

@@ -28,8 +28,8 @@ class AbcArchive;
 /// The same at a time, of curves that move; visibility is the first sample's.
 Result<LoadedGroom> abcGroomAt(double seconds, const AbcArchive& archive, const GroomReading& reading);
 
-/// The times at which curves that are drawn, or what places them, have a sample [s], rising; none: nothing
-/// moves.
+/// The times at which curves that are drawn, or what places them, have a sample [s], in any order; none:
+/// nothing moves.
 Result<std::vector<double>> abcGroomTimes(const AbcArchive& archive);
 
 }  // namespace ringlet

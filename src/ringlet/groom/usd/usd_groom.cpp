@@ -67,6 +67,20 @@ class UsdGroomMaker {
     return std::move(strands_.loaded());
   }
 
+  std::vector<double> times() {
+    findCurves();
+    std::vector<double> codes;
+    for (std::uint32_t p = 0; p < layer_.prims.size(); ++p) {
+      if (!inherited_[p].hasStrands) continue;
+      for (const UsdAttribute& attribute : layer_.prims[p].attributes) {
+        if (!attribute.isSampled || !goesBetweenUsdSamples(attribute.name)) continue;
+        for (const UsdSample& sample : attribute.samples) codes.push_back(sample.time);
+        for (const UsdSamplePlace& place : attribute.places) codes.push_back(place.time);
+      }
+    }
+    return codes;
+  }
+
  private:
   bool isCurves(std::uint32_t prim) const { return layer_.prims[prim].type == "BasisCurves"; }
 
@@ -406,6 +420,10 @@ class UsdGroomMaker {
 
 Result<LoadedGroom> groomOfUsd(const UsdLayer& layer, const GroomReading& reading, const std::string& name) {
   return UsdGroomMaker(layer, reading, name).make();
+}
+
+std::vector<double> usdGroomTimes(const UsdLayer& layer, const std::string& name) {
+  return UsdGroomMaker(layer, {}, name).times();
 }
 
 }  // namespace ringlet

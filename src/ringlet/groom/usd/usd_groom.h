@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "ringlet/base/result.h"
 #include "ringlet/groom/loaded_groom.h"
@@ -17,5 +18,9 @@ namespace ringlet {
 /// (references, payloads, variants, sublayers and so on); periodic curves; a count that does not fit; numbers
 /// that are not finite, and transforms that cannot be followed. `name` is the file's.
 Result<LoadedGroom> groomOfUsd(const UsdLayer& layer, const GroomReading& reading, const std::string& name);
+
+/// The time codes of the samples of curves that are drawn, and of what places them, in any order; the samples
+/// or their places are those of the layer (UsdAttribute). None: nothing moves.
+std::vector<double> usdGroomTimes(const UsdLayer& layer, const std::string& name);
 
 }  // namespace ringlet

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -155,6 +156,11 @@ inline bool isUsdDeformation(std::string_view name) {
 /// Whether strands have a value between two samples' there; of all else the sample before holds.
 inline bool goesBetweenUsdSamples(std::string_view name) {
   return name == "points" || name.starts_with("xformOp:");
+}
+
+/// Of which time strands have a value at a time: visibility is that of its first sample.
+inline double usdTimeOf(std::string_view name, double time) {
+  return name == "visibility" ? -std::numeric_limits<double>::infinity() : time;
 }
 
 /// Whether its first samples count for nothing as long as they are empty: hair that is not there yet.

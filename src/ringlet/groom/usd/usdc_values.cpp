@@ -256,6 +256,7 @@ Status CrateValues::readSamplesAt(double time, Rep rep, std::uint64_t mostElemen
   if (!samples) return samples.error();
   if (samples->count == 0) return {};
   if (Status rising = checkTimes(*samples); !rising) return rising;
+  time = usdTimeOf(attribute.name, time);
   std::uint64_t after = 0;
   while (after < samples->count && !(timeOf(*samples, after) > time)) ++after;
   std::vector<UsdSample> around;

@@ -69,14 +69,27 @@ double niceRate(double rate) {
   return std::abs(rate / whole - 1) < 1e-4 ? whole : rate;
 }
 
+// Times from the first on at which there is hair: some programs write curves without points until it is
+// there.
+Result<std::vector<double>> timesWithHair(const MovingGroom& groom) {
+  const std::vector<double>& all = groom.seconds();
+  if (all.size() < 2 || groom.at(all.front(), {})) return all;
+  const auto last = groom.at(all.back(), {});
+  if (!last) return last.error();
+  const auto first = std::ranges::partition_point(all, [&](double t) { return !groom.at(t, {}); });
+  return std::vector<double>(first, all.end());
+}
+
 class CurveFrames final : public ForeignFrames {
  public:
   static Result<std::unique_ptr<ForeignFrames>> open(const fs::path& path) {
     auto groom = MovingGroom::open(path);
     if (!groom) return groom.error();
-    if (groom->seconds().size() < 2)
+    const auto times = timesWithHair(*groom);
+    if (!times) return times.error();
+    if (times->size() < 2)
       return Error{fmt::format("{}: none of its curves move: it is a groom and no animation", path.string())};
-    auto self = std::make_unique<CurveFrames>(path, std::move(*groom));
+    auto self = std::make_unique<CurveFrames>(path, std::move(*groom), *times);
     constexpr double kSlowest = 1e-6, kFastest = 1e6;  // frames a second
     if (!(self->framesPerSecond() >= kSlowest && self->framesPerSecond() <= kFastest))
       return Error{fmt::format("{}: its samples make {} frames a second; expected {} to {}", path.string(),
@@ -84,17 +97,20 @@ class CurveFrames final : public ForeignFrames {
     return std::unique_ptr<ForeignFrames>(std::move(self));
   }
 
-  CurveFrames(const fs::path& path, MovingGroom groom)
-      : groom_(std::move(groom)), even_(evenTimesOf(groom_.seconds())) {
+  CurveFrames(const fs::path& path, MovingGroom groom, const std::vector<double>& times)
+      : groom_(std::move(groom)), even_(evenTimesOf(times)) {
     const std::string ending = endingOf(path);
     frameCount_ = even_.count;
     framesPerSecond_ = niceRate(1 / even_.step);
     formatName_ = ending == ".abc" ? "Alembic" : "USD";
     formatKey_ = ending.substr(1);
+    if (times.size() < groom_.seconds().size())
+      warnings_.push_back(
+          fmt::format("{}: it has no hair before {} s, where it begins", path.string(), times.front()));
     if (!even_.isExact)
-      warning_ = fmt::format(
+      warnings_.push_back(fmt::format(
           "{}: its {} samples are not at even times; it is played in {} even steps, straight between samples",
-          path.string(), groom_.seconds().size(), even_.count);
+          path.string(), times.size(), even_.count));
   }
 
   Result<LoadedGroom> frame(int frame, const GroomReading& reading) override {

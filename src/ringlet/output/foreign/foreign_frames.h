@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "ringlet/base/result.h"
 #include "ringlet/groom/loaded_groom.h"
@@ -33,13 +34,14 @@ class ForeignFrames {
   /// For people "USD", "Alembic", "sequence of .obj files"; for programs "usda", "abc", "sequence" ...
   const std::string& formatName() const { return formatName_; }
   const std::string& formatKey() const { return formatKey_; }
-  /// What a person should hear beside what frames say; empty: nothing.
-  const std::string& warning() const { return warning_; }
+  /// What a person should hear beside what frames say.
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
  protected:
   int frameCount_ = 0;
   double framesPerSecond_ = 0;
-  std::string formatName_{}, formatKey_{}, warning_{};
+  std::string formatName_{}, formatKey_{};
+  std::vector<std::string> warnings_{};
 };
 
 /// Whether the name says that frames are files of their own: "hair.####.obj", where the #s stand for as many

@@ -60,12 +60,13 @@ Status ForeignReader::takeFirst(const ForeignReading& reading) {
   firstPoint_ = first->groom.firstPoint;
   statesUnit_ = first->statesUnit || reading.metresPerUnit;
   metresPerUnit_ = reading.metresPerUnit.value_or(first->groom.metresPerUnit);
+  // Its values once more, without what is odd about them: of these only the widths count.
   const auto withWidths =
       frameOf(1, {.upIsZ = reading_.upIsZ, .keepsPrims = true, .pointsPerStrand = reading.pointsPerStrand});
   if (!withWidths) return withWidths.error();
   diameter_ = rootWidthOf(*withWidths).value_or(static_cast<float>(kUsualWidth / metresPerUnit_));
   warnings_ = std::move(first->warnings);
-  if (!frames_->warning().empty()) warnings_.push_back(frames_->warning());
+  warnings_.insert(warnings_.end(), frames_->warnings().begin(), frames_->warnings().end());
   return {};
 }
 
