@@ -12,9 +12,11 @@
 #include <vector>
 
 #include "program/simulate/reference_hair.h"
+#include "ringlet/output/animation_reader.h"
 #include "ringlet/run/divided_hair.h"
 #include "ringlet/run/run.h"
 #include "ringlet/scenes/file/scene_file.h"
+#include "tests/program/run_program.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/test_support.h"
 
@@ -147,6 +149,59 @@ TEST_F(ShotStartTest, BlendHoldsHairToHowItBegan) {
              rest = run(other + kStays + frames(12));
   EXPECT_LT(farthest(held[0], start), 0.5 * farthest(sudden[0], start));
   EXPECT_LT(farthest(held[11], rest[11]), farthest(held[0], rest[0])) << "it goes to the groom's own shape";
+}
+
+// A goal of the scene and what holds the start are two springs.
+TEST_F(ShotStartTest, BlendStandsBesideAGoal) {
+  run(kGroom + kJerk + frames(5), folder_);
+  const std::string goal = "[goal]\nstrength = 2\n", blend = from(folder_) + "blend = 4\n";
+  const auto strengthsOf = [&](const std::string& text, double seconds) {
+    const LoadedScene scene = load(kGroom + text);
+    EXPECT_TRUE(scene.forces.haveGoals());
+    const auto goals = scene.forces.goalsAt(seconds, {}, scene.settings.goal, nullptr);
+    EXPECT_TRUE(goals);
+    EXPECT_EQ(goals->places.size(), scene.groom.points.size());
+    EXPECT_EQ(goals->strengths.size(), scene.groom.points.size());
+    return goals->strengths;
+  };
+  const auto both = strengthsOf(goal + blend, 0), alone = strengthsOf(blend, 0),
+             later = strengthsOf(goal + blend, 1), ended = strengthsOf(blend, 1);
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    EXPECT_FLOAT_EQ(both[i], alone[i] + later[i]) << i;
+    EXPECT_EQ(ended[i], 0) << i;
+  }
+  EXPECT_GT(later[8], 0);
+}
+
+// What was written are all hairs, and what begins are their guides and a sample.
+TEST_F(ShotStartTest, GuidesBeginAsTheirHairsWere) {
+  const std::string groom =
+      "[groom]\nfile = '" + (folder_ / "dense.obj").string() + "'\nguides = 5\nguides_sample = 2\n";
+  const auto program = [&](std::vector<std::string> arguments) {
+    const auto result = test::runProgram(folder_, std::move(arguments));
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+  };
+  program({"make", "swatch", "--columns", "6", "--rows", "4", "--particles", "12", "-o", "dense.obj"});
+  std::ofstream(folder_ / "a.toml") << groom << "[motion]\nkind = 'shake'\n" << frames(4);
+  program({"simulate", "a.toml", "--cache", "float32", "--no-usd", "--no-sheet", "-o", "a"});
+  auto all = AnimationReader::open(folder_ / "a/hair.rgc");
+  ASSERT_TRUE(all) << all.error().message;
+  ASSERT_EQ(all->groom().strandCount(), 24u);
+  ASSERT_TRUE(all->readFrame(4));
+  const LoadedScene scene = load(groom + from(folder_ / "a"));
+  ASSERT_TRUE(scene.start);
+  ASSERT_EQ(scene.groom.strandCount(), 7u);
+  std::vector<std::uint32_t> strands = scene.level->guides;
+  strands.insert(strands.end(), scene.level->sample.begin(), scene.level->sample.end());
+  for (std::size_t s = 0; s < strands.size(); ++s) {
+    const auto hair = all->groom().strand(strands[s]);
+    for (std::size_t i = 0; i < hair.size(); ++i) {
+      // `shake` does not turn the head.
+      const Vec3d offset = (Vec3d(hair[i]) - Vec3d(hair[0])) * scene.groom.metresPerUnit;
+      EXPECT_LT(length(Vec3d(scene.start->offsets[scene.groom.firstPoint[s] + i]) - offset), 2e-5)
+          << s << ' ' << i;
+    }
+  }
 }
 
 TEST_F(ShotStartTest, SaysWhatIsWrong) {

@@ -193,14 +193,7 @@ Status SceneForces::loadGoal(const SceneFile& scene, const Groom& groom) {
   if (haveGoals()) groom_ = goalOf(groom);
   if (!hasGoalFile_) return {};
   if (holdsAnimation(scene.goalFile)) {
-    const GroomReading reading = readingOf(scene.groom);
-    auto animation = GoalAnimation::open(scene.goalFile, groom,
-                                         {.metresPerUnit = scene.groom.metresPerUnit,
-                                          .upIsZ = scene.groom.up == "Z",
-                                          .rootEnd = reading.rootEnd,
-                                          .pointsPerStrand = reading.pointsPerStrand,
-                                          .framesPerSecond = scene.simulation.framesPerSecond,
-                                          .groom = scene.groom.file});
+    auto animation = GoalAnimation::open(scene.goalFile, groom, foreignReadingOf(scene));
     if (!animation) return animation.error();
     animation_ = std::move(*animation);
     return {};
@@ -234,10 +227,10 @@ std::vector<ForceField> SceneForces::fieldsAt(double seconds, const HeadPose& he
   return fields;
 }
 
-void SceneForces::holdStart(std::vector<Vec3f> places, double seconds) {
+void SceneForces::holdStart(const Groom& groom, std::vector<Vec3f> places, double seconds) {
+  if (!haveGoals()) groom_ = goalOf(groom);
   startPlaces_ = std::move(places);
   startSeconds_ = seconds;
-  if (groom_.places.empty()) groom_.places = startPlaces_;
 }
 
 Result<GoalPose> SceneForces::goalsAt(double seconds, const HeadPose& head, const GoalSettings& goal,

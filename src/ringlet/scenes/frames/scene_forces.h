@@ -59,9 +59,9 @@ class SceneForces {
   bool haveGoals() const {
     return !holds_.empty() || hasGoalFile_ || !goalFactors_.empty() || startSeconds_ > 0;
   }
-  /// Holds hair to `places`, in the head's frame [m], ever less for so long [s]; of each of the groom's
-  /// particles.
-  void holdStart(std::vector<Vec3f> places, double seconds);
+  /// Holds each particle of the scene's groom to its place, in the head's frame [m], ever less for so long
+  /// [s].
+  void holdStart(const Groom& groom, std::vector<Vec3f> places, double seconds);
 
   /// In the world, with the head at `head`. `keys`: of the same scene, or none.
   std::vector<ForceField> fieldsAt(double seconds, const HeadPose& head, const SceneKeys* keys) const;

@@ -400,25 +400,6 @@ Result<Material> loadMaterialOf(const SceneFile& scene, Integrator integrator,
   return material;
 }
 
-namespace {
-
-Status takeShotStart(const SceneFile& scene, LoadedScene& loaded) {
-  if (scene.start.from.empty()) {
-    if (!scene.start.frame && scene.start.blend == 0) return {};
-    return Error{"start.frame and start.blend have no effect without start.from; expected the run it is of"};
-  }
-  if (scene.motion.preRollSeconds > 0)
-    return Error{
-        "found start.from and motion.pre_roll: one lets hair begin as another run ended, the other with its own "
-        "motion before the first frame; expected one of them"};
-  auto start = loadShotStart(scene, loaded.groom, loaded.settings.rootCount, loaded.warnings);
-  if (!start) return Error{fmt::format("the start: {}", start.error().message), start.error().fault};
-  loaded.start = std::make_shared<const ShotStart>(std::move(*start));
-  return {};
-}
-
-}  // namespace
-
 Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known, SharedGeometry geometry) {
   LoadedScene loaded;
   loaded.warnings = scene.warnings;
@@ -470,7 +451,7 @@ Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known, 
   if (!forces) return forces.error();
   loaded.forces = std::move(*forces);
   if (loaded.start && scene.start.blend > 0)
-    loaded.forces.holdStart(loaded.start->placesIn(loaded.groom),
+    loaded.forces.holdStart(loaded.groom, loaded.start->placesIn(loaded.groom),
                             scene.start.blend / loaded.settings.framesPerSecond);
   if ((loaded.forces.haveFields() || loaded.forces.haveGoals()) &&
       loaded.settings.integrator != Integrator::jacobi)

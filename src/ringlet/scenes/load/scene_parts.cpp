@@ -60,6 +60,16 @@ GroomReading readingOf(const SceneGroom& groom, bool keepsPrims) {
           .rootEnd = rootEndOf(groom.rootEnd).value_or(RootEnd::first)};
 }
 
+ForeignReading foreignReadingOf(const SceneFile& scene) {
+  const GroomReading groom = readingOf(scene.groom);
+  return {.metresPerUnit = scene.groom.metresPerUnit,
+          .upIsZ = groom.upIsZ,
+          .rootEnd = groom.rootEnd,
+          .pointsPerStrand = groom.pointsPerStrand,
+          .framesPerSecond = scene.simulation.framesPerSecond,
+          .groom = scene.groom.file};
+}
+
 Result<std::shared_ptr<const ScalpSurface>> readScalp(const std::filesystem::path& path,
                                                       double metresPerUnit) {
   const auto mesh = readObjMesh(path, metresPerUnit);

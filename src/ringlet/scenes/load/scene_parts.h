@@ -11,6 +11,7 @@
 #include "ringlet/groom/loaded_groom.h"
 #include "ringlet/groom/scalp_surface.h"
 #include "ringlet/groom/usd/usd_matrix.h"
+#include "ringlet/output/foreign/foreign_frames.h"
 #include "ringlet/scene/body.h"
 #include "ringlet/scene/motion.h"
 #include "ringlet/scene/settings.h"
@@ -29,6 +30,10 @@ SceneGroom groomOfStyle(const std::string& style);
 
 /// How the groom's file is to be read.
 GroomReading readingOf(const SceneGroom& groom, bool keepsPrims = false);
+
+/// How animations that other programs wrote of the scene's strands are read: what they do not say is the
+/// groom's, and the run's rate.
+ForeignReading foreignReadingOf(const SceneFile& scene);
 
 /// A mesh that generated hair grows on. Errors: those of readObjMesh and, with the path, of makeMeshScalp.
 Result<std::shared_ptr<const ScalpSurface>> readScalp(const std::filesystem::path& path,

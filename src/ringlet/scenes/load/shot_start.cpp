@@ -5,6 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <utility>
 
 #include "ringlet/measure/head_fit.h"
 #include "ringlet/output/animation_reader.h"
@@ -13,41 +17,95 @@
 namespace ringlet {
 namespace {
 
-std::vector<Vec3d> rootsOf(const Groom& groom, std::span<const Vec3f> points, double metresPerUnit,
-                           int rootCount) {
-  std::vector<Vec3d> roots;
-  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
-    const std::uint32_t first = groom.firstPoint[s], end = groom.firstPoint[s + 1];
-    for (std::uint32_t i = first; i < std::min(end, first + static_cast<std::uint32_t>(rootCount)); ++i)
-      roots.push_back(Vec3d(points[i]) * metresPerUnit);
+// The strands of the scene, in another run's frames.
+class ShotFrames {
+ public:
+  static Result<ShotFrames> open(const std::filesystem::path& file, const SceneFile& scene,
+                                 const LoadedScene& loaded) {
+    auto run = AnimationReader::open(file, foreignReadingOf(scene));
+    if (!run) return run.error();
+    ShotFrames self(std::move(*run), loaded);
+    if (self.strands_.empty())
+      return Error{fmt::format(
+          "{} has {} strands of {} particles in all, the groom {} of {}; expected the same strands, particle for "
+          "particle",
+          file.string(), self.run_.groom().strandCount(), self.run_.groom().firstPoint.back(),
+          loaded.groom.strandCount(), loaded.groom.points.size())};
+    return self;
   }
-  return roots;
-}
 
-// Seen from the head.
-std::vector<Vec3d> offsetsOf(const Groom& groom, std::span<const Vec3f> points, double metresPerUnit,
-                             int rootCount) {
-  const std::vector<Vec3d> rest = rootsOf(groom, groom.points, groom.metresPerUnit, rootCount);
-  const Quatd back = fitHeadRotation(rest, rootsOf(groom, points, metresPerUnit, rootCount)).conjugate();
-  std::vector<Vec3d> offsets;
-  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
-    const Vec3d root(points[groom.firstPoint[s]]);
-    for (std::uint32_t i = groom.firstPoint[s]; i < groom.firstPoint[s + 1]; ++i)
-      offsets.push_back(rotate(back, (Vec3d(points[i]) - root) * metresPerUnit));
+  const AnimationReader& run() const { return run_; }
+
+  // Of all particles, seen from the head, relative to the first of their strand [m].
+  Result<std::vector<Vec3d>> offsetsAt(int frame) {
+    if (Status read = run_.readFrame(frame); !read) return read.error();
+    std::vector<Vec3d> rest, found;
+    for (std::size_t s = 0; s < groom_->strandCount(); ++s) {
+      const auto roots = std::min<std::size_t>(rootCount_, groom_->strand(s).size());
+      for (std::size_t i = 0; i < roots; ++i) {
+        rest.push_back(Vec3d(groom_->strand(s)[i]) * groom_->metresPerUnit);
+        found.push_back(placeOf(s, i));
+      }
+    }
+    const Quatd back = fitHeadRotation(rest, found).conjugate();
+    std::vector<Vec3d> offsets;
+    for (std::size_t s = 0; s < groom_->strandCount(); ++s)
+      for (std::size_t i = 0; i < groom_->strand(s).size(); ++i)
+        offsets.push_back(rotate(back, placeOf(s, i) - placeOf(s, 0)));
+    return offsets;
   }
-  return offsets;
-}
 
-double lengthOf(const Groom& groom, std::span<const Vec3f> points) {
+ private:
+  ShotFrames(AnimationReader run, const LoadedScene& loaded)
+      : run_(std::move(run)),
+        groom_(&loaded.groom),
+        rootCount_(static_cast<std::size_t>(loaded.settings.rootCount)) {
+    takeStrands(loaded.level.get());
+  }
+
+  // The run's strands are the scene's; or all hairs of a groom whose guides the scene has.
+  void takeStrands(const LevelOfDetail* level) {
+    std::vector<std::uint32_t> strands(groom_->strandCount());
+    std::iota(strands.begin(), strands.end(), 0U);
+    if (level && !level->guides.empty() && run_.groom().strandCount() == level->hairs.size()) {
+      strands = level->guides;
+      strands.insert(strands.end(), level->sample.begin(), level->sample.end());
+    } else if (run_.groom().strandCount() != strands.size()) {
+      return;
+    }
+    const std::vector<std::uint32_t>& first = run_.groom().firstPoint;
+    for (std::size_t s = 0; s < strands.size(); ++s)
+      if (first[strands[s] + 1] - first[strands[s]] != groom_->strand(s).size()) return;
+    strands_ = std::move(strands);
+  }
+
+  Vec3d placeOf(std::size_t strand, std::size_t particle) const {
+    const Groom& groom = run_.groom();
+    return Vec3d(groom.points[groom.firstPoint[strands_[strand]] + particle]) * run_.header().metresPerUnit;
+  }
+
+  AnimationReader run_;
+  const Groom* groom_;
+  std::size_t rootCount_;
+  std::vector<std::uint32_t> strands_{};  // of the run, of each of the groom's; empty: others
+};
+
+// Of all strands together, from the places of particles in the head's frame, or such of the run.
+template <class PlaceOf>
+double lengthOf(const Groom& groom, PlaceOf placeOf) {
   double all = 0;
   for (std::size_t s = 0; s < groom.strandCount(); ++s)
     for (std::uint32_t i = groom.firstPoint[s] + 1; i < groom.firstPoint[s + 1]; ++i)
-      all += length(Vec3d(points[i]) - Vec3d(points[i - 1]));
+      all += length(placeOf(i) - placeOf(i - 1));
   return all;
 }
 
-void doubtLength(double share, const std::string& name, std::vector<std::string>& warnings) {
+void doubtLength(const Groom& groom, const std::vector<Vec3d>& offsets, const std::string& name,
+                 std::vector<std::string>& warnings) {
   constexpr double kUsual = 0.2;
+  const double rest =
+      lengthOf(groom, [&](std::uint32_t i) { return Vec3d(groom.points[i]) * groom.metresPerUnit; });
+  const double share = lengthOf(groom, [&](std::uint32_t i) { return offsets[i]; }) / rest;
   if (std::abs(share - 1) <= kUsual) return;
   warnings.push_back(
       fmt::format("the strands of {} are {:.3g} times as long as the groom's: it has another unit, or is of "
@@ -64,28 +122,33 @@ Vec3d slopeAtEnd(const std::vector<std::vector<Vec3d>>& frames, std::size_t part
   return at(0) * 1.5 - at(1) * 2.0 + at(2) * 0.5;
 }
 
-// Nothing where the run has no such frame.
-std::optional<int> frameOf(const SceneStart& start, const AnimationReader& run) {
-  const int frame = start.frame.value_or(run.frameCount());
-  return frame >= 1 && frame <= run.frameCount() ? std::optional(frame) : std::nullopt;
-}
-
-// Of the groom's strands.
-Result<AnimationReader> openRun(const std::filesystem::path& file, const SceneFile& scene,
-                                const Groom& groom) {
-  const GroomReading reading = readingOf(scene.groom);
-  auto run = AnimationReader::open(file, {.metresPerUnit = scene.groom.metresPerUnit,
-                                          .upIsZ = reading.upIsZ,
-                                          .rootEnd = reading.rootEnd,
-                                          .pointsPerStrand = reading.pointsPerStrand,
-                                          .framesPerSecond = scene.simulation.framesPerSecond,
-                                          .groom = scene.groom.file});
-  if (!run || run->groom().firstPoint == groom.firstPoint) return run;
-  return Error{fmt::format(
-      "{} has {} strands of {} particles in all, the groom {} of {}; expected the same strands, particle for "
-      "particle",
-      file.string(), run->groom().strandCount(), run->groom().firstPoint.back(), groom.strandCount(),
-      groom.points.size())};
+Result<ShotStart> loadShotStart(const SceneFile& scene, LoadedScene& loaded) {
+  const auto file = animationFileOf(scene.start.from);
+  if (!file) return file.error();
+  const std::string name = file->string();
+  auto frames = ShotFrames::open(*file, scene, loaded);
+  if (!frames) return frames.error();
+  const int count = frames->run().frameCount(), frame = scene.start.frame.value_or(count);
+  if (frame < 1 || frame > count)
+    return Error{fmt::format("{} has frames 1 to {}; there is no frame {}", name, count, frame)};
+  // The frame and the two before it, as far as there are.
+  std::vector<std::vector<Vec3d>> offsets;
+  for (int k = std::max(1, frame - 2); k <= frame; ++k) {
+    auto read = frames->offsetsAt(k);
+    if (!read) return read.error();
+    offsets.push_back(std::move(*read));
+  }
+  if (offsets.size() == 1)
+    loaded.warnings.push_back(fmt::format(
+        "frame 1 of {} has none before it, which velocities would follow from; hair begins without any",
+        name));
+  doubtLength(loaded.groom, offsets.back(), name, loaded.warnings);
+  ShotStart start;
+  for (std::size_t i = 0; i < offsets.back().size(); ++i) {
+    start.offsets.push_back(Vec3f(offsets.back()[i]));
+    start.velocities.push_back(Vec3f(slopeAtEnd(offsets, i) * frames->run().header().framesPerSecond));
+  }
+  return start;
 }
 
 }  // namespace
@@ -101,42 +164,19 @@ std::vector<Vec3f> ShotStart::placesIn(const Groom& groom) const {
   return places;
 }
 
-Result<ShotStart> loadShotStart(const SceneFile& scene, const Groom& groom, int rootCount,
-                                std::vector<std::string>& warnings) {
-  const auto file = animationFileOf(scene.start.from);
-  if (!file) return file.error();
-  const std::string name = file->string();
-  auto run = openRun(*file, scene, groom);
-  if (!run) return run.error();
-  const auto frame = frameOf(scene.start, *run);
-  if (!frame)
-    return Error{fmt::format("{} has frames 1 to {}; there is no frame {}", name, run->frameCount(),
-                             scene.start.frame.value_or(run->frameCount()))};
-  const double unit = run->header().metresPerUnit;
-  const auto offsetsAt = [&](int k) -> Result<std::vector<Vec3d>> {
-    if (Status read = run->readFrame(k); !read) return read.error();
-    return offsetsOf(groom, run->groom().points, unit, rootCount);
-  };
-  // The frame and the two before it, as far as there are.
-  std::vector<std::vector<Vec3d>> offsets;
-  for (int k = std::max(1, *frame - 2); k <= *frame; ++k) {
-    auto read = offsetsAt(k);
-    if (!read) return read.error();
-    offsets.push_back(std::move(*read));
+Status takeShotStart(const SceneFile& scene, LoadedScene& loaded) {
+  if (scene.start.from.empty()) {
+    if (!scene.start.frame && scene.start.blend == 0) return {};
+    return Error{"start.frame and start.blend have no effect without start.from; expected the run it is of"};
   }
-  if (offsets.size() == 1)
-    warnings.push_back(fmt::format(
-        "frame 1 of {} has none before it, which velocities would follow from; hair begins without any",
-        name));
-  doubtLength(
-      lengthOf(groom, run->groom().points) * unit / (lengthOf(groom, groom.points) * groom.metresPerUnit),
-      name, warnings);
-  ShotStart start;
-  for (std::size_t i = 0; i < offsets.back().size(); ++i) {
-    start.offsets.push_back(Vec3f(offsets.back()[i]));
-    start.velocities.push_back(Vec3f(slopeAtEnd(offsets, i) * run->header().framesPerSecond));
-  }
-  return start;
+  if (scene.motion.preRollSeconds > 0)
+    return Error{
+        "found start.from and motion.pre_roll: one lets hair begin as another run ended, the other with its own "
+        "motion before the first frame; expected one of them"};
+  auto start = loadShotStart(scene, loaded);
+  if (!start) return Error{fmt::format("the start: {}", start.error().message), start.error().fault};
+  loaded.start = std::make_shared<const ShotStart>(std::move(*start));
+  return {};
 }
 
 }  // namespace ringlet

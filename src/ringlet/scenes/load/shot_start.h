@@ -3,13 +3,12 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/groom.h"
-#include "ringlet/scenes/file/scene_file.h"
+#include "ringlet/scenes/load/load_scene.h"
 
 namespace ringlet {
 
@@ -23,12 +22,12 @@ struct ShotStart {
   std::vector<Vec3f> placesIn(const Groom& groom) const;
 };
 
-/// The other run's head is where its roots, the first `rootCount` particles of strands, say: the rigid motion
-/// that best brings the groom's there. Velocities are those of the parabola through the frame and the two
-/// before it. Adds warnings: a first frame, which has no velocities; strands of another length than the
-/// groom's. Errors: no such animation or frame; other strands than the groom's. Cost: the reading of two
-/// frames, of text of all up to them.
-Result<ShotStart> loadShotStart(const SceneFile& scene, const Groom& groom, int rootCount,
-                                std::vector<std::string>& warnings);
+/// LoadedScene::start of a scene whose groom, guides and settings are loaded, where it is asked for. The
+/// other run's head is where its roots say, the particles that the head carries: the rigid motion that best
+/// brings the groom's there. Velocities are those of the parabola through the frame and the two before it. A
+/// run of all hairs of a groom has its guides. Adds warnings: a first frame, which has no velocities; strands
+/// of another length than the groom's. Errors: keys that do not go together; no such animation or frame;
+/// other strands than the groom's. Cost: the reading of three frames, of text of all up to them.
+Status takeShotStart(const SceneFile& scene, LoadedScene& loaded);
 
 }  // namespace ringlet
