@@ -53,8 +53,9 @@ Status writeCarried(const fs::path& path, const LoadedScene& scene) {
                                        .diameter = static_cast<float>(0.0005 / unit),
                                        .frameCount = scene.frameCount});
   if (!writer) return writer.error();
+  const SceneFrames frames(scene);
   for (int frame = 1; frame <= scene.frameCount; ++frame) {
-    std::vector<Vec3f> points = carriedPoints(scene, frame);
+    std::vector<Vec3f> points = carriedPoints(scene, frames.placesAt(frame).head);
     for (Vec3f& p : points) p = Vec3f(Vec3d(p) * (1 / unit));
     if (Status added = (*writer)->addFrame(points); !added) return added;
   }
@@ -90,8 +91,7 @@ Status writeCase(const fs::path& folder, const BenchmarkCase& of) {
 
 std::span<const BenchmarkCase> benchmarkCases() { return kBenchmarkCases; }
 
-std::vector<Vec3f> carriedPoints(const LoadedScene& scene, int frame) {
-  const HeadPose head = SceneFrames(scene).placesAt(frame).head;
+std::vector<Vec3f> carriedPoints(const LoadedScene& scene, const HeadPose& head) {
   const Groom& groom = scene.groom;
   std::vector<Vec3f> points;
   points.reserve(groom.points.size());

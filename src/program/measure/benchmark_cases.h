@@ -23,9 +23,9 @@ struct BenchmarkCase {
 
 std::span<const BenchmarkCase> benchmarkCases();
 
-/// Where all particles are at frame 0 (rest) and later, if they move with their roots as stiff strands do
+/// Where all particles are with the scene's head there, if they move with their roots as stiff strands do
 /// [m], in the world.
-std::vector<Vec3f> carriedPoints(const LoadedScene& scene, int frame);
+std::vector<Vec3f> carriedPoints(const LoadedScene& scene, const HeadPose& head);
 
 /// Writes of each case into FOLDER/NAME: scene.toml and rest.obj, which Ringlet runs; rest.abc; carried.abc
 /// and carried.usdc, the strands stiff on their moving roots; body.obj, which the head carries, where there

@@ -41,7 +41,8 @@ class BenchmarkRuler {
       ruler.contacts_.emplace(std::move(*contacts));
     }
     if (!scene.bodies.empty()) ruler.bodies_.emplace(scene.groom, scene.bodies, scene.settings.rootCount);
-    if (Status rest = ruler.look(0, carriedPoints(scene, 0)); !rest) return rest.error();
+    if (Status rest = ruler.look(0, carriedPoints(scene, ruler.frames_.placesAt(0).head)); !rest)
+      return rest.error();
     ruler.restTurns_ = curlNumbers(ruler.motion_.ruler(), ruler.motion_.report()).turns;
     return ruler;
   }
@@ -51,7 +52,7 @@ class BenchmarkRuler {
     const ScenePlaces places = frames_.placesAt(frame);
     if (Status added = motion_.addFrame(points, 1, places.head.rotation); !added)
       return Error{fmt::format("frame {}: {}", frame, added.error().message)};
-    const std::vector<Vec3f> carried = carriedPoints(*scene_, frame);
+    const std::vector<Vec3f> carried = carriedPoints(*scene_, places.head);
     for (std::size_t s = 0; s < scene_->groom.strandCount(); ++s) {
       const std::uint32_t root = scene_->groom.firstPoint[s];
       score_.roots = std::max(score_.roots, length(Vec3d(points[root]) - Vec3d(carried[root])));

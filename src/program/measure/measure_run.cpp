@@ -200,13 +200,12 @@ std::vector<Vec3f> inMetres(std::span<const Vec3f> points, double metresPerUnit)
 }
 
 Result<Measured> measureAnimation(const MeasurePlan& plan, const std::filesystem::path& path) {
-  std::optional<double> restUnit = plan.metresPerUnit;
-  if (!restUnit && holdsForeignFrames(path)) {
-    const auto groom = read(plan.rest, plan, isUpZ(plan, UpAxis::y));
+  auto source = openAnimation(path, plan, plan.metresPerUnit);
+  if (source && !source->statesUnit()) {
+    const auto groom = read(plan.rest, plan, isUpZ(plan, source->header().up));
     if (!groom) return groom.error();
-    restUnit = groom->metresPerUnit;
+    source = openAnimation(path, plan, groom->metresPerUnit);
   }
-  auto source = openAnimation(path, plan, restUnit);
   if (!source) return source.error();
   for (const std::string& warning : source->warnings()) warn(warning);
   const double unit = source->header().metresPerUnit;
