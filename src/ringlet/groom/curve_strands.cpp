@@ -17,9 +17,10 @@ namespace {
 constexpr std::size_t kParticlesPerByte = 4, kFreeParticles = 65536;
 constexpr std::size_t kMostFaults = 6;  // that are named
 
+// Whether the nearest floats are finite: the shortest text of the largest one is a larger number.
 bool isFloat(Vec3d p) {
-  constexpr double kMost = std::numeric_limits<float>::max();
-  return std::abs(p.x) <= kMost && std::abs(p.y) <= kMost && std::abs(p.z) <= kMost;
+  constexpr double kBeyond = 0x1.ffffffp127;  // nearer to what follows the largest
+  return std::abs(p.x) < kBeyond && std::abs(p.y) < kBeyond && std::abs(p.z) < kBeyond;
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ struct UsdLayer {
   std::string_view upAxis;            // "" where the file does not say
   std::string_view composedBy;        // as of a prim, of the whole layer
   std::vector<char> text;             // what views are into, unless they are into the file's own bytes
-  std::deque<std::string> targets{};  // likewise, of relationships
+  std::deque<std::string> targets{};  // likewise, of relationships, and texts without their escapes
 };
 
 /// Whether it is one of those that are carried from a groom to its animation.

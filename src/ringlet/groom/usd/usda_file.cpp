@@ -138,6 +138,17 @@ class UsdaReader {
     at_ = end + close.size();
     return inner;
   }
+  // What a string says: \" is ", \n a line break.
+  std::string_view withoutEscapes(std::string_view text) {
+    if (text.find('\\') == text.npos) return text;
+    std::string plain;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      const bool isEscaped = text[i] == '\\' && i + 1 < text.size();
+      const char c = text[isEscaped ? ++i : i];
+      plain += !isEscaped ? c : c == 'n' ? '\n' : c == 't' ? '\t' : c;
+    }
+    return layer_.targets.emplace_back(std::move(plain));
+  }
   static bool isDelimiter(char c) { return c == '"' || c == '\'' || c == '@' || c == '<'; }
 
   // From the bracket here to the one that closes it. Says whether there was anything in it.
@@ -232,7 +243,7 @@ class UsdaReader {
     if (c == '"' || c == '\'' || c == '@') {
       auto text = takeDelimited();
       if (!text) return text.error();
-      value.texts.push_back(*text);
+      value.texts.push_back(c == '@' ? *text : withoutEscapes(*text));
       return {};
     }
     const std::size_t before = value.numbers.size();
