@@ -362,12 +362,31 @@ TEST(AbcReader, AnyFrameIsReadAtOnce) {
 // As a groom it is its first frame, also while it is written.
 TEST(AbcWriter, IsAGroomAsWell) {
   for (const bool finishes : {true, false}) {
-    const fs::path path =
-        write(scratchFolder("abc_groom") / "hair.abc", smallGroom(), {.frameCount = 4}, 3, finishes);
+    const fs::path path = write(scratchFolder("abc_groom") / "hair.abc", smallGroom(),
+                                {.metresPerUnit = 0.0254, .frameCount = 4}, 3, finishes);
     const auto groom = readAbcGroom(bytesOf(test::readText(path)), path);
     ASSERT_TRUE(groom) << groom.error().message;
     EXPECT_EQ(groom->groom.points, pointsAt(smallGroom(), 1));
     EXPECT_EQ(groom->groom.firstPoint, smallGroom().firstPoint);
+    EXPECT_TRUE(groom->statesUnit && groom->statesUp && !groom->isTurned);
+    EXPECT_EQ(groom->groom.metresPerUnit, 0.0254);
+  }
+}
+
+// The head's transform stands between the points and the world, in which the axis points up.
+TEST(AbcWriter, AGroomIsTurnedToTheAxisThatIsWanted) {
+  const fs::path path = write(scratchFolder("abc_turned") / "hair.abc", smallGroom(),
+                              {.up = UpAxis::z, .frameCount = 1, .usd = {.head = UsdHead::transform}}, 1);
+  const std::string bytes = test::readText(path);
+  const auto kept = readAbcGroom(bytesOf(bytes), path, {.upIsZ = true}),
+             turned = readAbcGroom(bytesOf(bytes), path);
+  ASSERT_TRUE(kept && turned);
+  EXPECT_TRUE(turned->isTurned && !kept->isTurned);
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    const Vec3f p = kept->groom.points[i], q = turned->groom.points[i];
+    EXPECT_NEAR(q.x, p.x, 1e-6);
+    EXPECT_NEAR(q.y, p.z, 1e-6);
+    EXPECT_NEAR(q.z, -p.y, 1e-6);
   }
 }
 

@@ -15,7 +15,8 @@ namespace {
 // Of a file's bytes: a point takes six at least, and four of a cubic curve make 29 particles at most. Arrays
 // that many objects share could make more.
 constexpr std::size_t kParticlesPerByte = 4, kFreeParticles = 65536;
-constexpr std::size_t kMostFaults = 6;  // that are named
+constexpr std::size_t kMostFaults = 6;                       // that are named
+constexpr double kSmallestUnit = 1e-6, kLargestUnit = 1000;  // [m], as --unit may be
 
 // Whether the nearest floats are finite: the shortest text of the largest one is a larger number.
 bool isFloat(Vec3d p) {
@@ -50,6 +51,25 @@ CurveStrands::CurveStrands(std::string name, std::string noun, std::size_t byteC
 
 void CurveStrands::warn(const std::string& sentence) {
   loaded_.warnings.push_back(fmt::format("{}: {}", name_, sentence));
+}
+
+void CurveStrands::takeUnit(double metresPerUnit) {
+  loaded_.statesUnit = metresPerUnit >= kSmallestUnit && metresPerUnit <= kLargestUnit;
+  if (loaded_.statesUnit) {
+    loaded_.groom.metresPerUnit = metresPerUnit;
+  } else {
+    warn(fmt::format("states a unit of {} m, which no hair has; it is left aside", metresPerUnit));
+  }
+}
+
+UsdTransform CurveStrands::takeUp(bool isZ, bool wantsZ) {
+  loaded_.statesUp = true;
+  if (isZ == wantsZ) return {};
+  loaded_.isTurned = true;
+  warn(fmt::format("turned from {0} up, which it states, to {1} up (--up {0} keeps its axes)",
+                   isZ ? 'Z' : 'Y', isZ ? 'Y' : 'Z'));
+  return isZ ? UsdTransform{{Vec3d{1, 0, 0}, Vec3d{0, 0, -1}, Vec3d{0, 1, 0}}, {}}
+             : UsdTransform{{Vec3d{1, 0, 0}, Vec3d{0, 0, 1}, Vec3d{0, -1, 0}}, {}};
 }
 
 Error CurveStrands::wrong(std::uint32_t object, const std::string& sentence) const {

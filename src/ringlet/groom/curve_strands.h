@@ -62,6 +62,12 @@ class CurveStrands {
   LoadedGroom& loaded() { return loaded_; }
   void warn(const std::string& sentence);
 
+  /// The file states its unit [m]; one that no hair has is left aside, with a warning.
+  void takeUnit(double metresPerUnit);
+  /// The file states its up axis. What comes back turns its points to the one that is wanted, of which a
+  /// warning tells where that is another.
+  UsdTransform takeUp(bool isZ, bool wantsZ);
+
   /// Curves, whose counts fit, become strands where the transform puts them. What comes back are those that
   /// did: curves of too few points, or with one that is not finite, are left out and counted. Error: the
   /// groom becomes larger than the file's size allows. Cost: linear in points and particles.

@@ -17,7 +17,7 @@ struct Groom {
   std::vector<Vec3f> points;  // all particles of all strands [file unit]
   std::vector<std::uint32_t> firstPoint{
       0};  // strandCount + 1 entries; strand s is points[firstPoint[s] .. firstPoint[s+1])
-  double metresPerUnit = 0.01;  // stated by USD files, else by the user
+  double metresPerUnit = 0.01;  // stated by the file, else by the user
 
   std::size_t strandCount() const { return firstPoint.size() - 1; }
   std::span<const Vec3f> strand(std::size_t s) const {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -444,6 +445,15 @@ std::string_view abcValueOf(std::string_view metadata, std::string_view key) {
       return entry.substr(key.size() + 1);
   }
   return {};
+}
+
+std::optional<double> abcNumberOf(std::string_view metadata, std::string_view key) {
+  const std::string_view text = abcValueOf(metadata, key);
+  double number = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, code] = std::from_chars(text.data(), end, number);
+  if (code != std::errc() || stop != end) return std::nullopt;
+  return number;
 }
 
 }  // namespace ringlet

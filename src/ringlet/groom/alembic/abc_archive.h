@@ -16,6 +16,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -179,5 +180,7 @@ const AbcProperty* abcPropertyNamed(const std::vector<AbcProperty>& properties, 
 
 /// The value of a key in a metadata text; empty where there is none.
 std::string_view abcValueOf(std::string_view metadata, std::string_view key);
+/// The same, of a value that is a number; nothing where it is none.
+std::optional<double> abcNumberOf(std::string_view metadata, std::string_view key);
 
 }  // namespace ringlet

@@ -15,6 +15,7 @@
 #include "ringlet/base/quoted.h"
 #include "ringlet/groom/alembic/abc_archive.h"
 #include "ringlet/groom/alembic/abc_curves.h"
+#include "ringlet/groom/alembic/abc_hair.h"
 #include "ringlet/groom/alembic/abc_params.h"
 #include "ringlet/groom/alembic/abc_transform.h"
 #include "ringlet/groom/curve_strands.h"
@@ -60,6 +61,7 @@ class AbcGroomMaker {
 
   Result<LoadedGroom> make() {
     if (Status looked = lookAtObjects(); !looked) return looked.error();
+    readUnitAndAxis();
     std::size_t curvesCount = 0;
     for (const std::uint32_t object : inFileOrder()) {
       if (objects_[object].schema != kCurveSchema || !isDrawn(object)) continue;
@@ -89,6 +91,13 @@ class AbcGroomMaker {
     std::size_t chain = 0;  // properties of it and of those above it
     bool isHidden = false;
   };
+
+  // Of an archive that Ringlet wrote.
+  void readUnitAndAxis() {
+    if (const auto unit = abcNumberOf(archive_.metadata(), kAbcUnit)) strands_.takeUnit(*unit);
+    const std::string_view up = abcValueOf(archive_.metadata(), kAbcUp);
+    if (up == "Y" || up == "Z") turn_ = strands_.takeUp(up == "Z", reading_.upIsZ);
+  }
 
   // Parents come first.
   Status lookAtObjects() {
@@ -180,7 +189,8 @@ class AbcGroomMaker {
     if (!budget_.take(times.size())) return budget_.state().error();
     if (!seconds && !times.empty()) seconds = times.front();
     if (seconds) noteMoves(*seconds);
-    return transforms->at(seconds.value_or(0));
+    const UsdTransform place = transforms->at(seconds.value_or(0));
+    return strands_.loaded().isTurned ? place.then(turn_) : place;
   }
   void noteMoves(double seconds) { firstTime_ = firstTime_ ? std::min(*firstTime_, seconds) : seconds; }
 
@@ -331,6 +341,7 @@ class AbcGroomMaker {
   std::optional<double> seconds_;  // none: each object's first
   AbcBudget budget_;
   CurveStrands strands_;
+  UsdTransform turn_{};  // of all points, to the axis that is wanted
   std::vector<Object> objects_{};
   std::map<std::string_view, std::size_t> kinds_{};  // objects by their schema
   std::size_t instances_ = 0, hiddenCurves_ = 0;

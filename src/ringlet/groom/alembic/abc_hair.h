@@ -19,6 +19,8 @@ inline constexpr const char *kAbcHairPath = "/Hair/HairShape", *kAbcPoints = "P"
                             *kAbcVelocities = ".velocities";
 /// How many numbers a transform's matrix has, in rows of 4; points are rows.
 inline constexpr unsigned kAbcMatrixNumbers = 16;
+/// What the archive's metadata has of Ringlet's: metres, and the axis that points up, Y or Z.
+inline constexpr const char *kAbcUnit = "ringlet_metresPerUnit", *kAbcUp = "ringlet_upAxis";
 
 /// A curves object of linear strands: strand lengths, and of the rest without samples `.selfBnds` and `P`.
 /// The transform says nothing yet.

@@ -19,8 +19,7 @@ namespace ringlet {
 namespace {
 
 constexpr const char* kFlatten = "flatten the file first, as `usdcat --flatten` does";
-constexpr double kSmallestUnit = 1e-6, kLargestUnit = 1000;  // [m], as --unit may be
-constexpr std::size_t kMostNamed = 6;                        // in a sentence
+constexpr std::size_t kMostNamed = 6;  // in a sentence
 
 // Why curves are not drawn, and so not read.
 enum class LeftOut : std::uint8_t { no, inactive, abstract, over, invisible, proxy, prototype };
@@ -91,28 +90,12 @@ class UsdGroomMaker {
   void warn(const std::string& sentence) { strands_.warn(sentence); }
 
   Status readUnitAndAxis() {
-    LoadedGroom& loaded = strands_.loaded();
-    if (layer_.metresPerUnit) {
-      const double unit = *layer_.metresPerUnit;
-      loaded.statesUnit = unit >= kSmallestUnit && unit <= kLargestUnit;
-      if (loaded.statesUnit) {
-        loaded.groom.metresPerUnit = unit;
-      } else {
-        warn(fmt::format("states a unit of {} m, which no hair has; it is left aside", unit));
-      }
-    }
+    if (layer_.metresPerUnit) strands_.takeUnit(*layer_.metresPerUnit);
     transforms_.emplace_back();
     if (layer_.upAxis.empty()) return {};
     if (layer_.upAxis != "Y" && layer_.upAxis != "Z")
       return Error{fmt::format("{}: found up axis {}; expected Y or Z", name_, quoted(layer_.upAxis))};
-    loaded.statesUp = true;
-    const bool isZ = layer_.upAxis == "Z";
-    if (isZ == reading_.upIsZ) return {};
-    transforms_[0] = isZ ? UsdTransform{{Vec3d{1, 0, 0}, Vec3d{0, 0, -1}, Vec3d{0, 1, 0}}, {}}
-                         : UsdTransform{{Vec3d{1, 0, 0}, Vec3d{0, 0, 1}, Vec3d{0, -1, 0}}, {}};
-    loaded.isTurned = true;
-    warn(fmt::format("turned from {0} up, which it states, to {1} up (--up {0} keeps its axes)",
-                     isZ ? 'Z' : 'Y', isZ ? 'Y' : 'Z'));
+    transforms_[0] = strands_.takeUp(layer_.upAxis == "Z", reading_.upIsZ);
     return {};
   }
 

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -24,13 +23,6 @@ constexpr std::string_view kOgawa("Ogawa\xff", 6);
 bool isAbcMarked(std::span<const std::byte> begin) {
   const std::string_view text = textOf(begin);
   return text.starts_with(kOgawa) && text.substr(kAbcMarkAt).starts_with(kAbcMark);
-}
-
-double abcNumberOf(std::string_view metadata, std::string_view key) {
-  const std::string_view text = abcValueOf(metadata, key);
-  double number = 0;
-  const auto end = text.data() + text.size();
-  return std::from_chars(text.data(), end, number).ptr == end ? number : 0;
 }
 
 }  // namespace
@@ -69,7 +61,8 @@ Status AbcReader::readFront() {
 
 Status AbcReader::readMeasures(const AbcArchive& archive) {
   const std::string_view up = abcValueOf(archive.metadata(), kAbcUp);
-  return takeMeasures(abcNumberOf(archive.metadata(), kAbcRate), abcNumberOf(archive.metadata(), kAbcUnit),
+  return takeMeasures(abcNumberOf(archive.metadata(), kAbcRate).value_or(0),
+                      abcNumberOf(archive.metadata(), kAbcUnit).value_or(0),
                       up == "Z" ? UpAxis::z : UpAxis::y,
                       fmt::format("{} and {}", kAbcRate, kAbcUnit).c_str());
 }

@@ -12,9 +12,8 @@ struct AbcStage {
   float margin = 0;       // that boxes have beyond the points: half the thickest diameter
 };
 
-/// The archive's metadata, beside what Alembic's own library reads of it.
-inline constexpr const char *kAbcRate = "_ai_DCC_FPS", *kAbcUnit = "ringlet_metresPerUnit",
-                            *kAbcUp = "ringlet_upAxis";
+/// Of the archive's metadata, beside its unit and up axis (abc_hair.h).
+inline constexpr const char* kAbcRate = "_ai_DCC_FPS";
 
 /// What moves is `.vals` of the transform, where the head's motion is kept apart, `.selfBnds`, `P` and
 /// `.velocities`. Of AnimationOptions::usd all counts but clipFrames and originPrims. The groom's points are
