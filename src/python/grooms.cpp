@@ -22,6 +22,7 @@
 #include "ringlet/groom/obj_file.h"
 #include "ringlet/measure/groom_doubts.h"
 #include "ringlet/measure/groom_measure.h"
+#include "ringlet/output/groom_writer.h"
 
 namespace ringlet::python {
 namespace {
@@ -262,8 +263,8 @@ void addGroomUses(GroomClass& groomClass) {
             withoutGil([&] { demand(writeGroom(path, self.groom())); });
           },
           py::arg("path"),
-          "Writes a .hair, .obj, .ply or .abc file; reading it gives the same bits. ringlet.Error for another "
-          "extension, a full disk.")
+          "Writes a .hair, .obj, .ply, .abc, .usda or .usdc file; reading it gives the same bits, and of the last three "
+          "the unit. ringlet.Error for another extension, a full disk.")
       .def("info", &infoOf,
            "What the groom is like, in metres: a dict of strands, particles, particles_per_strand, length "
            "(along the strand), curled (strands that are not straight), of these turns and radius, "
@@ -431,7 +432,7 @@ void addGrooms(py::module_& module) {
       "Reads a groom from a file of any format of docs/formats.md. metres_per_unit: None takes what a USD "
       "file states, else 0.01. points_per_strand: of a file that holds points and nothing else. root_end: "
       "which end of each strand is its root, first, last, or head, the one on a ball on which most strands "
-      "have an end. up: the axis that is to point up, Y or Z, to which a USD file is turned. What was odd "
+      "have an end. up: the axis that is to point up, Y or Z, to which a file that states another is turned. What was odd "
       "about the file, or seems wrong with the groom, is in its warnings. ringlet.Error for a file that is "
       "missing or broken.");
   addCurlMakers(module);

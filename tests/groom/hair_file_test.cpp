@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ringlet/groom/groom_file.h"
+#include "ringlet/output/groom_writer.h"
 #include "tests/groom/groom_samples.h"
 #include "tests/support/test_support.h"
 

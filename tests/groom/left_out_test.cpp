@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "ringlet/groom/groom_file.h"
+#include "ringlet/output/groom_writer.h"
 #include "tests/groom/abc_curve_samples.h"
 #include "tests/groom/crate_bytes.h"
 #include "tests/groom/groom_samples.h"

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "ringlet/groom/groom_file.h"
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/output/animation_writer.h"
+#include "ringlet/output/groom_writer.h"
 #include "tests/support/test_support.h"
 
 namespace ringlet::foreign_test {

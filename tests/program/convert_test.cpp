@@ -376,7 +376,7 @@ TEST_F(Convert, FailuresAreOneSentenceAndHaveAnExitStatus) {
   };
   for (const Case& c :
        {Case{{"none.rgc", "a.usda"}, "none.rgc", 4}, Case{{"wrong.rgc", "a.usda"}, "5 bytes"},
-        Case{{"groom.obj", "a.usda"}, "cannot write a groom: .usda is only read"},
+        Case{{"groom.obj", "a.usdz"}, "cannot write a groom: .usdz is only read"},
         Case{{"damaged.rgc", "a.usda"}, "frame 1 is damaged"},
         Case{{"later.rgc", "b.usda"}, "frames before it are kept in b.usda.partial"},
         Case{{"out/hair.rgc", "a.usda", "--frames", "2:6"}, "has frames 1 to 5; there is no frame 6"},

@@ -17,6 +17,7 @@
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/groom/hair_styles.h"
 #include "ringlet/groom/root_ends.h"
+#include "ringlet/output/groom_writer.h"
 #include "ringlet/scenes/load/load_scene.h"
 #include "tests/bodies/body_samples.h"
 #include "tests/groom/groom_samples.h"
@@ -394,13 +395,12 @@ TEST_F(GroomFaults, WhatIsNotWrittenLosesNothing) {
   for (const char* taken : {"taken.obj", "taken.ply", "taken.hair"})
     std::filesystem::create_directories(folder_ / taken / "by a folder");
   std::ofstream(folder_ / "file") << "no folder";
-  for (const std::string name : {"taken.obj", "taken.ply", "taken.hair", "file/out.obj", "out.usda"}) {
+  for (const std::string name : {"taken.obj", "taken.ply", "taken.hair", "file/out.obj", "out.tfx"}) {
     for (const std::vector<std::string>& command :
          {std::vector<std::string>{"convert", "groom.obj", "--unit", "0.0254", "--up", "Z", name},
           {"info", "groom.obj", "--unit", "0.0254", "--up", "Z", "--fix", name},
           {"convert", "out/hair.rgc", "--frame", "1", name}}) {
-      // Of an animation the one is written, and the other is a folder for frames.
-      if (command[1] == "out/hair.rgc" && (name == "out.usda" || name == "taken.hair")) continue;
+      if (command[1] == "out/hair.rgc" && name == "taken.hair") continue;  // a folder for frames
       const ProgramResult refused = runProgram(folder_, command);
       EXPECT_NE(refused.exitCode, 0) << command[0] << " " << name;
       EXPECT_FALSE(contains(refused.err, "does not hold")) << command[0] << " " << refused.err;

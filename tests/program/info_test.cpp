@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ringlet/groom/groom_file.h"
+#include "ringlet/output/groom_writer.h"
 #include "tests/groom/crate_bytes.h"
 #include "tests/groom/usda_samples.h"
 #include "tests/measure/strand_samples.h"
@@ -361,7 +362,7 @@ TEST_F(UsdGroom, IsConverted) {
     int exitCode;
     const char* part;
   };
-  for (const Case& c : {Case{{"plain.usda", "c.rgc"}, 1, "supported are .hair, .obj, .ply and .abc"},
+  for (const Case& c : {Case{{"plain.usda", "c.rgc"}, 1, "supported are .hair, .obj, .ply, .abc, "},
                         Case{{"plain.usda"}, 2, "name the file to write"},
                         Case{{"plain.usda", "c.obj", "--frame", "1"}, 2, "a groom has no frames"},
                         Case{{"plain.usda", "--info"}, 1, "`ringlet info`"}}) {

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "ringlet/groom/groom_file.h"
 #include "ringlet/output/animation_reader.h"
+#include "ringlet/output/groom_writer.h"
 #include "ringlet/output/usd/usd_writer.h"
 #include "tests/measure/strand_samples.h"
 #include "tests/program/run_program.h"

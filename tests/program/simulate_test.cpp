@@ -10,6 +10,7 @@
 
 #include "ringlet/gpu/device.h"
 #include "ringlet/groom/groom_file.h"
+#include "ringlet/output/groom_writer.h"
 #include "ringlet/solver/compute_device.h"
 #include "tests/program/run_program.h"
 #include "tests/support/strict_usd.h"

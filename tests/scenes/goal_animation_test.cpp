@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "ringlet/groom/generate.h"
-#include "ringlet/groom/groom_file.h"
 #include "ringlet/output/animation_writer.h"
+#include "ringlet/output/groom_writer.h"
 #include "ringlet/scenes/load/load_scene.h"
 #include "tests/support/test_support.h"
 

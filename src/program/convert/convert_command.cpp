@@ -29,6 +29,7 @@
 #include "ringlet/motion/point_cache.h"
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/output/animation_writer.h"
+#include "ringlet/output/groom_writer.h"
 #include "ringlet/output/precision_names.h"
 #include "ringlet/scenes/file/scene_file.h"
 #include "ringlet/scenes/load/load_scene.h"
@@ -52,8 +53,8 @@ constexpr const char* kConvertExample =
     "  ringlet convert out/hair.rgc sheet.png\n"
     "  ringlet convert out/hair.rgc full.usdc --hairs 20000 --groom groom.obj\n"
     "  ringlet convert out/hair.rgc.partial --info               of a run that was cut short, or goes on\n"
-    "  ringlet convert groom.usdc groom.hair                     another program's groom; .hair, .obj, "
-    ".ply or .abc\n"
+    "  ringlet convert groom.usdc groom.hair                     a groom; .hair, .obj, .ply, .abc, .usda or .usdc\n"
+    "  ringlet convert groom.hair groom.usdc --unit 1            and to USD, in metres\n"
     "  ringlet convert houdini.usdc hair.abc                     another program's curves that move\n"
     "  ringlet convert frames/hair.####.obj hair.usdc --rate 30  a file a frame\n"
     "  ringlet convert cache.pc2 hair.usdc --groom groom.obj     a point cache over a groom\n"
@@ -192,6 +193,24 @@ void checkOptions(const TypedConvert& typed) {
     throw CLI::ValidationError("--usd-values", "velocities are written into .usdc, .abc and clips only");
 }
 
+// The same where IN is a groom.
+void checkGroomOptions(const TypedConvert& typed) {
+  if (typed.frame || !typed.frames.empty() || !typed.precision.empty() || typed.clips)
+    throw CLI::ValidationError("IN", "a groom has no frames, no clips and no precision");
+  if (!typed.info && typed.output.empty())
+    throw CLI::ValidationError("OUT", "name the file to write, " + writtenGroomEndings("or"));
+  if (!typed.groom.empty() || !typed.scene.empty())
+    throw CLI::ValidationError(typed.groom.empty() ? "--scene" : "--groom",
+                               "IN is a groom itself; only the hairs of an animation need one");
+  if (typed.tipWidth)
+    throw CLI::ValidationError("--tip-width", "only an animation has it; a groom's widths are its file's");
+  if (has(typed, "velocities"))
+    throw CLI::ValidationError("--usd-values", "a groom rests and has no velocities");
+  const WrittenGroomFormat* format = writtenGroomFormatOf(typed.output);
+  if (!typed.values.empty() && format && !format->isStating)
+    throw CLI::ValidationError("--usd-values", "only USD and Alembic have it");
+}
+
 UsdExtras usdExtras(const TypedConvert& typed, double metresPerUnit) {
   UsdExtras extras{.ids = has(typed, "id"),
                    .velocities = has(typed, "velocities"),
@@ -246,14 +265,24 @@ void printReport(const TypedConvert& typed, const ConvertReport& report) {
 Status runGroomConvert(const TypedConvert& typed) {
   if (typed.info)
     return Error{fmt::format("{} is a groom; `ringlet info` says what is in it", typed.input.string())};
-  auto loaded = readGroom(typed.input, readingOf(typed.keys, typed.up == "Z"));
+  GroomReading reading = readingOf(typed.keys, typed.up == "Z");
+  const WrittenGroomFormat* format = writtenGroomFormatOf(typed.output);
+  reading.keepsPrims = !typed.hairs && format && format->isStating;
+  auto loaded = readGroom(typed.input, reading);
   if (!loaded) return loaded.error();
   if (typed.metresPerUnit) loaded->groom.metresPerUnit = *typed.metresPerUnit;
   for (const std::string& warning : loaded->warnings) say("ringlet convert: warning: {}\n", warning);
   const auto hair = fullHairOf(typed, loaded->groom, loaded->groom.metresPerUnit);
   if (!hair) return hair.error();
   const Groom& groom = *hair ? (*hair)->groom() : loaded->groom;
-  if (Status written = writeGroom(typed.output, groom); !written) return written;
+  GroomWriting writing{.up = upOf(typed.up, *loaded), .usd = usdExtras(typed, groom.metresPerUnit)};
+  if (*hair) {
+    writing.usd.closestGuides = (*hair)->closestGuides();
+  } else {
+    writing.usd.origin = &*loaded;
+    writing.usd.originValues = true;
+  }
+  if (Status written = writeGroom(typed.output, groom, writing); !written) return written;
   for (std::string& lost : lostIn(typed.output, loaded->groom.metresPerUnit, typed.up == "Z")) {
     say("ringlet convert: warning: {}\n", lost);
     loaded->warnings.push_back(std::move(lost));
@@ -337,13 +366,6 @@ Status runConvert(const TypedConvert& typed) {
 
 int run(const TypedConvert& typed) {
   const bool isGroom = isGroomFile(typed.input) && !holdsAnimation(typed.input);
-  if (isGroom && (typed.frame || !typed.frames.empty() || !typed.precision.empty()))
-    throw CLI::ValidationError("IN", "a groom has no frames and no precision");
-  if (isGroom && !typed.info && typed.output.empty())
-    throw CLI::ValidationError("OUT", std::string("name the file to write, ") + kWrittenGroomEndings);
-  if (isGroom && (!typed.groom.empty() || !typed.scene.empty()))
-    throw CLI::ValidationError(typed.groom.empty() ? "--scene" : "--groom",
-                               "IN is a groom itself; only the hairs of an animation need one");
   const bool isOfStrands =
       typed.up || typed.metresPerUnit || (!typed.keys.optionOf("groom").empty() && typed.groom.empty());
   if (!isGroom && isOfStrands && !holdsForeignFrames(typed.input))
@@ -353,7 +375,7 @@ int run(const TypedConvert& typed) {
         "--points-per-strand are of grooms and of other programs' animations");
   if (typed.framesPerSecond && !isSequence(typed.input) && !isPointCache(typed.input))
     throw CLI::ValidationError("--rate", "only a sequence of files and a point cache do not say it");
-  if (!isGroom) checkOptions(typed);
+  isGroom ? checkGroomOptions(typed) : checkOptions(typed);
   const Status done = isGroom ? runGroomConvert(typed) : runConvert(typed);
   if (done) return kExitFine;
   return fail("convert", done.error());
@@ -429,15 +451,15 @@ void addConvertCommand(CLI::App& app, int& exitCode) {
   command
       ->add_option(
           "--unit", typed->metresPerUnit,
-          "Of a groom and of another program's animation: metres per unit of its file (default: what a "
-          "USD file states, else 0.01)")
+          "Of a groom and of another program's animation: metres per unit of its file (default: what the "
+          "file states, else 0.01)")
       ->check(between(1e-6, 1000))
       ->type_name("METRES");
   command
       ->add_option(
           "--up", typed->up,
-          "Of a groom and of another program's animation: the axis that is to point up, to which a USD file is "
-          "turned, Y or Z (default: of an animation the file's, else Y)")
+          "Of a groom and of another program's animation: the axis that is to point up, to which a file that "
+          "states another is turned, Y or Z (default: of an animation the file's, else Y)")
       ->check(oneOf({"Y", "Z"}))
       ->type_name("AXIS");
   addOptionsOfKeys(*command, typed->keys, {"groom.root_end", "groom.points_per_strand"});

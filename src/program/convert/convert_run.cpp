@@ -8,8 +8,8 @@
 #include <system_error>
 
 #include "program/cli/progress_bar.h"
-#include "ringlet/groom/groom_file.h"
 #include "ringlet/output/animation_writer.h"
+#include "ringlet/output/groom_writer.h"
 #include "ringlet/output/sheet.h"
 #include "ringlet/pictures/scene_bodies.h"
 

@@ -13,7 +13,7 @@
 #include "program/cli/key_options.h"
 #include "program/cli/standard_error.h"
 #include "program/cli/standard_output.h"
-#include "ringlet/groom/groom_file.h"
+#include "ringlet/output/groom_writer.h"
 #include "ringlet/scenes/load/load_scene.h"
 
 namespace ringlet::program {
@@ -42,7 +42,7 @@ int run(const TypedMake& typed) {
     return kExitUsage;
   }
   const Groom& groom = made->groom;
-  if (Status written = writeGroom(typed.file, groom); !written) {
+  if (Status written = writeGroom(typed.file, groom, {.up = UpAxis::y}); !written) {
     say("{}: {}\n", command, written.error().message);
     return exitCodeOf(written.error());
   }
@@ -58,9 +58,9 @@ int run(const TypedMake& typed) {
 CLI::App& addKind(CLI::App& make, const std::shared_ptr<TypedMake>& typed, const char* summary,
                   int& exitCode) {
   CLI::App& command = *make.add_subcommand(typed->kind, summary);
-  command.add_option("-o,--output", typed->file, "File to write: .obj, .hair or .ply")
+  command.add_option("-o,--output", typed->file, "File to write: " + writtenGroomEndings("or"))
       ->required()
-      ->check(endsIn({".obj", ".hair", ".ply"}))
+      ->check(endsIn(writtenGroomEndings()))
       ->type_name("FILE");
   addOptionsOfKeys(command, typed->keys,
                    {"groom.radius", "groom.turns", "groom.length", "groom.particles", "groom.phase",

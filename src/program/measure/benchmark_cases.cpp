@@ -9,8 +9,8 @@
 
 #include "ringlet/base/whole_file.h"
 #include "ringlet/bodies/head_mesh.h"
-#include "ringlet/groom/groom_file.h"
 #include "ringlet/output/animation_writer.h"
+#include "ringlet/output/groom_writer.h"
 #include "ringlet/scenes/file/scene_text.h"
 #include "ringlet/scenes/frames/scene_frames.h"
 #include "ringlet/scenes/load/scene_parts.h"
@@ -77,7 +77,7 @@ Status writeCase(const fs::path& folder, const BenchmarkCase& of) {
   const std::string heading = fmt::format("# {} (docs/benchmark.md)\n", of.summary);
   const std::string text = sceneText(sceneFileOf(*scene, folder / "rest.obj"), folder, heading);
   for (const char* name : {"rest.obj", "rest.abc"})
-    if (Status written = writeGroom(folder / name, scene->groom); !written) return written;
+    if (Status written = writeGroom(folder / name, scene->groom, {.up = UpAxis::y}); !written) return written;
   if (Status written = writeWholeFile(folder / "scene.toml", std::as_bytes(std::span<const char>(text)));
       !written)
     return written;

@@ -29,6 +29,7 @@
 #include "ringlet/measure/groom_inspection.h"
 #include "ringlet/measure/rest_crossings.h"
 #include "ringlet/output/animation_reader.h"
+#include "ringlet/output/groom_writer.h"
 
 namespace ringlet::program {
 namespace {
@@ -57,9 +58,8 @@ constexpr const char* kInfoExample =
     "--scalp.\n"
     "With --particles each strand has that many, at equal distances along its edges; four a turn keep a "
     "curl. It\n"
-    "writes in the file's unit, which its formats do not hold: a warning says what --unit and --up a groom "
-    "needs\n"
-    "from then on.\n"
+    "writes in the file's unit, which .hair, .obj and .ply do not hold: a warning says what --unit and --up a\n"
+    "groom needs from then on.\n"
     "\n";
 constexpr const char* kInfoExitHelp =
     "\n"
@@ -108,7 +108,8 @@ Result<FixedGroom> fix(const TypedInfo& typed, const LoadedGroom& loaded, const 
         "lose its shape",
         *typed.particles, found.turns.max));
   }
-  if (Status written = writeGroom(typed.output, fixed.mended.groom); !written) return written.error();
+  if (Status written = writeGroom(typed.output, fixed.mended.groom, {.up = upOf(typed.up, loaded)}); !written)
+    return written.error();
   for (std::string& lost : lostIn(typed.output, loaded.groom.metresPerUnit, typed.up == "Z"))
     fixed.warnings.push_back(std::move(lost));
   return fixed;
@@ -181,12 +182,13 @@ void addInfoCommand(CLI::App& app, int& exitCode) {
       ->type_name("FILE");
   command
       ->add_option("--unit", typed->metresPerUnit,
-                   "Metres per unit of the file (default: what a USD file states, else 0.01: centimetres)")
+                   "Metres per unit of the file (default: what the file states, else 0.01: centimetres)")
       ->check(between(1e-6, 1000))
       ->type_name("METRES");
   command
-      ->add_option("--up", typed->up,
-                   "The axis that is to point up, to which a USD file is turned, Y or Z (default Y)")
+      ->add_option(
+          "--up", typed->up,
+          "The axis that is to point up, to which a file that states another is turned, Y or Z (default Y)")
       ->check(oneOf({"Y", "Z"}))
       ->type_name("AXIS");
   command
@@ -196,10 +198,8 @@ void addInfoCommand(CLI::App& app, int& exitCode) {
       ->check(endsIn({".obj"}))
       ->type_name("FILE");
   addOptionsOfKeys(*command, typed->groom, {"groom.root_end", "groom.points_per_strand"});
-  command
-      ->add_option("--fix", typed->output,
-                   std::string("File to write a mended groom to: ") + kWrittenGroomEndings)
-      ->check(endsIn({".obj", ".hair", ".ply"}))
+  command->add_option("--fix", typed->output, "File to write a mended groom to: " + writtenGroomEndings("or"))
+      ->check(endsIn(writtenGroomEndings()))
       ->type_name("OUT");
   command
       ->add_option("--particles", typed->particles,

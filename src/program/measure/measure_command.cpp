@@ -36,8 +36,8 @@ constexpr const char* kMeasureExample =
     "  ringlet measure --benchmark bench --write     the neutral benchmark's files, for any simulator\n"
     "  ringlet measure --benchmark bench             how well their runs went\n"
     "\n"
-    "A USD file (.usda, .usdc, .usd, .usdz) states its unit and its up axis; --unit and --up go before "
-    "them.\n"
+    "A USD file (.usda, .usdc, .usd, .usdz) states its unit and its up axis, and so does an .abc that Ringlet\n"
+    "wrote; --unit and --up go before them.\n"
     "OTHER is a groom with the same strands, a folder that `ringlet simulate` wrote, or an animation, of Ringlet\n"
     "or of another program.\n"
     "A hair.usda may be the groom as well: its first frame is.\n"
@@ -106,7 +106,7 @@ void addMeasureCommand(CLI::App& app, int& exitCode) {
   command
       ->add_option(
           "--unit", typed->plan.metresPerUnit,
-          "Metres per unit of the files (default: the animation's, else what a USD file states, else 0.01: "
+          "Metres per unit of the files (default: the animation's, else what the file states, else 0.01: "
           "centimetres)")
       ->check(between(1e-6, 1000))
       ->type_name("METRES");

@@ -240,7 +240,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
   for (const char* other : {"--azimuth", "--elevation", "--distance", "--orbit"}) camera->excludes(other);
   command
       .add_option("--unit", options.metresPerUnit,
-                  "Of a groom: metres per unit of its file (default: what a USD file states, else 0.01)")
+                  "Of a groom: metres per unit of its file (default: what the file states, else 0.01)")
       ->check(between(1e-6, 1000))
       ->type_name("METRES");
   command.add_option("--up", options.up, "Of a groom: the axis that points up, Y or Z")

@@ -8,6 +8,7 @@
 #include "ringlet/c/io_handles.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/measure/groom_doubts.h"
+#include "ringlet/output/groom_writer.h"
 #include "ringlet/rest/material_file.h"
 #include "ringlet/rest/material_parameters.h"
 

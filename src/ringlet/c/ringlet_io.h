@@ -42,14 +42,16 @@ typedef struct ringlet_groom_reading {
 } ringlet_groom_reading;
 
 /* Reads .hair, .obj, .tfx, .ply, .data, .bin, .usda, .usdc, .usd, .usdz and .abc. `reading` may be NULL. Only
-   USD states unit and up axis; of other files the points are as they are, and gravity is the host's to set.
- */
+   USD, and an .abc that Ringlet wrote, state unit and up axis; of other files the points are as they are, and
+   gravity is the host's to set. */
 ringlet_result ringlet_groom_read(const char* path, const ringlet_groom_reading* reading,
                                   ringlet_loaded_groom** groom);
 /* The groom, for ringlet_asset_build; it points into `from`, and is valid as long. */
 ringlet_result ringlet_loaded_groom_get(const ringlet_loaded_groom* from, ringlet_groom* groom);
 void ringlet_loaded_groom_release(ringlet_loaded_groom* groom);
-/* Writes .hair, .obj, .ply or .abc; reading it gives the same bits. */
+/* Writes .hair, .obj, .ply, .abc, .usda or .usdc; reading it gives the same bits, and of the last three the
+ * unit.
+ */
 ringlet_result ringlet_groom_write(const char* path, const ringlet_groom* groom);
 
 /* Materials. */

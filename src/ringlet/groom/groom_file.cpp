@@ -16,7 +16,6 @@
 #include "ringlet/base/file_ending.h"
 #include "ringlet/base/whole_file.h"
 #include "ringlet/groom/alembic/abc_groom.h"
-#include "ringlet/groom/alembic/abc_hair.h"
 #include "ringlet/groom/hair_file.h"
 #include "ringlet/groom/obj_file.h"
 #include "ringlet/groom/ply_file.h"
@@ -44,12 +43,12 @@ std::optional<Format> formatOf(const std::filesystem::path& path) {
   return std::nullopt;
 }
 
-Error unknownExtension(const std::filesystem::path& path, const char* attempt, const char* supported) {
+Error unknownExtension(const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
-  return {fmt::format("{}: cannot {} a groom: {}; supported are {}", path.string(), attempt,
+  return {fmt::format("{}: cannot read a groom: {}; supported are {}", path.string(),
                       extension.empty() ? std::string("the name has no extension")
                                         : fmt::format("the extension '{}' is unknown", extension),
-                      supported)};
+                      kGroomEndings)};
 }
 
 Result<LoadedGroom> readFormat(Format format, std::span<const std::byte> bytes,
@@ -119,7 +118,7 @@ Result<LoadedGroom> readGroom(const std::filesystem::path& path, const GroomRead
         Fault::input};
   }
   const std::optional<Format> format = formatOf(path);
-  if (!format) return unknownExtension(path, "read", kGroomEndings);
+  if (!format) return unknownExtension(path);
   try {
     Result<std::vector<std::byte>> bytes = readWholeFile(path);
     if (!bytes) return bytes.error();
@@ -128,24 +127,6 @@ Result<LoadedGroom> readGroom(const std::filesystem::path& path, const GroomRead
     return loaded;
   } catch (const std::bad_alloc&) {
     return Error{fmt::format("{}: reading it needs more memory than there is", path.string())};
-  }
-}
-
-Status writeGroom(const std::filesystem::path& path, const Groom& groom) {
-  const std::optional<Format> format = formatOf(path);
-  if (!format) return unknownExtension(path, "write", kWrittenGroomEndings);
-  switch (*format) {
-    case Format::hair:
-      return writeHair(path, groom);
-    case Format::obj:
-      return writeObj(path, groom);
-    case Format::ply:
-      return writePly(path, groom, groom.points);
-    case Format::abc:
-      return writeAbc(path, groom);
-    default:
-      return Error{fmt::format("{}: cannot write a groom: {} is only read; supported are {}", path.string(),
-                               path.extension().string(), kWrittenGroomEndings)};
   }
 }
 

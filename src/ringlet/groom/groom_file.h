@@ -1,6 +1,6 @@
-// Reads and writes grooms, choosing the format by the file's extension: .hair (hair_file.h), .obj
-// (obj_file.h) or, to be read only, .usda, .usdc, .usd and .usdz (usd_file.h), .abc
-// (alembic/abc_groom.h), .tfx (tfx_file.h), .ply (ply_file.h), .data and .bin (strand_list_file.h).
+// Reads grooms, choosing the format by the file's extension: .hair (hair_file.h), .obj (obj_file.h), .usda,
+// .usdc, .usd and .usdz (usd_file.h), .abc (alembic/abc_groom.h), .tfx (tfx_file.h), .ply (ply_file.h), .data
+// and .bin (strand_list_file.h). They are written by output/groom_writer.h.
 #pragma once
 
 #include <filesystem>
@@ -12,10 +12,11 @@
 namespace ringlet {
 
 /// Reads a groom; upper or lower case of the extension does not matter. The points stay in the file's unit.
-/// USD alone states its unit and its up axis: metresPerUnit is then the file's, and the points are turned to
-/// the axis that is asked for; of others metresPerUnit keeps its default. Every strand has at least two
-/// particles, all finite. Errors: unknown extension, missing or unreadable file, anything wrong inside it,
-/// more than memory holds. Cost: one read of the whole file into memory.
+/// USD and Ringlet's Alembic archives alone state their unit and their up axis: metresPerUnit is then the
+/// file's, and the points are turned to the axis that is asked for; of others metresPerUnit keeps its
+/// default. Every strand has at least two particles, all finite. Errors: unknown extension, missing or
+/// unreadable file, anything wrong inside it, more than memory holds. Cost: one read of the whole file into
+/// memory.
 Result<LoadedGroom> readGroom(const std::filesystem::path& path, const GroomReading& reading = {});
 
 /// Whether the name of a file ends as that of a groom that can be read.
@@ -24,13 +25,5 @@ bool isGroomFile(const std::filesystem::path& path);
 /// All such endings, as a sentence has them: ".hair, .obj ... and .bin".
 inline constexpr const char* kGroomEndings =
     ".hair, .obj, .usda, .usdc, .usd, .usdz, .abc, .tfx, .ply, .data and .bin";
-
-/// Those of them that can be written.
-inline constexpr const char* kWrittenGroomEndings = ".hair, .obj, .ply and .abc";
-
-/// Writes a groom so that reading it gives the same bits. An existing file is replaced only once all is
-/// written. Errors: another extension, a groom without strands, a strand of fewer than
-/// two particles or with one that is not finite, what the format cannot hold, a full disk.
-Status writeGroom(const std::filesystem::path& path, const Groom& groom);
 
 }  // namespace ringlet

@@ -83,8 +83,8 @@ struct AnimationOptions {
   double framesPerSecond = 24;
   double metresPerUnit = 0.01;  // unit of points and diameter
   UpAxis up = UpAxis::y;
-  float diameter = 0.05f;                              // of every strand [file unit]
-  int frameCount = 1;                                  // most frames that will come; fewer may
+  float diameter = 0.05f;  // of every strand [file unit]; 0: unknown, as of grooms
+  int frameCount = 1;      // most frames that will come; fewer may
   CachePrecision precision = CachePrecision::float32;  // of formats that have several
   UsdExtras usd{};                                     // of USD and Alembic files
 };

@@ -7,6 +7,7 @@
 #include "ringlet/motion/gltf_file.h"
 #include "ringlet/output/cache_reader.h"
 #include "ringlet/output/cache_writer.h"
+#include "ringlet/output/groom_writer.h"
 #include "ringlet/output/picture.h"
 #include "ringlet/rest/material_file.h"
 #include "ringlet/version.h"

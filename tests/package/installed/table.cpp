@@ -14,6 +14,7 @@
 #include "ringlet/motion/motion_file.h"
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/output/animation_writer.h"
+#include "ringlet/output/groom_writer.h"
 #include "ringlet/rest/material_file.h"
 #include "ringlet/run/divided_hair.h"
 #include "ringlet/run/run.h"

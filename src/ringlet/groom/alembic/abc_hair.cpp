@@ -1,14 +1,10 @@
 // Implements groom/alembic/abc_hair.h.
 #include "ringlet/groom/alembic/abc_hair.h"
 
-#include <algorithm>
 #include <bit>
 #include <cstring>
 
 #include "ringlet/base/assert.h"
-#include "ringlet/base/bounds.h"
-#include "ringlet/base/whole_file.h"
-#include "ringlet/groom/groom_check.h"
 
 namespace ringlet {
 namespace {
@@ -89,18 +85,6 @@ std::string abcBoxBytes(const std::array<Vec3f, 2>& corners) {
     for (const float number : {corner.x, corner.y, corner.z}) putAbcF64(bytes, number);
   }
   return bytes;
-}
-
-Status writeAbc(const std::filesystem::path& path, const Groom& groom) {
-  if (Status status = checkGroom(groom, groom.points, path); !status) return status;
-  const Bounds box = boundsOf(groom.points);
-  AbcOutArchive archive = abcHairOf(groom);
-  abcGeometryOf(archive)[0].values = abcBoxBytes({Vec3f(box.low), Vec3f(box.high)});
-  std::string& points = abcGeometryOf(archive)[1].values;
-  points.resize(sizeof(Vec3f) * groom.points.size());
-  putAbcPoints(groom.points, points, 0);
-  const std::string bytes = abcFileOf(std::move(archive));
-  return writeWholeFile(path, std::as_bytes(std::span(bytes)));
 }
 
 }  // namespace ringlet

@@ -2,13 +2,11 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/alembic/abc_out.h"
 #include "ringlet/groom/groom.h"
@@ -34,8 +32,5 @@ std::vector<AbcOutProperty>& abcGeometryOf(AbcOutArchive& hair);
 void putAbcPoints(std::span<const Vec3f> points, std::string& bytes, std::size_t at);
 /// The lowest and the highest corner of a box.
 std::string abcBoxBytes(const std::array<Vec3f, 2>& corners);
-
-/// Writes a groom: its points at rest, every bit of them, and no more. Errors: see writeGroom.
-Status writeAbc(const std::filesystem::path& path, const Groom& groom);
 
 }  // namespace ringlet

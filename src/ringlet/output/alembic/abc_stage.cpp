@@ -131,8 +131,11 @@ void addClosestGuides(const std::vector<ClosestGuides>& closest, std::vector<Usd
 }
 
 // All that does not move, of one prim's attributes.
-void addAbcParams(const std::vector<UsdStageAttribute>& attributes, std::vector<AbcOutProperty>& geometry) {
-  constexpr std::string_view kShape[] = {"curveVertexCounts", "type", "wrap", "xformOpOrder"};
+void addAbcParams(std::vector<UsdStageAttribute>& attributes, const UsdExtras& usd,
+                  std::vector<AbcOutProperty>& geometry) {
+  if (usd.unreal) addClosestGuides(usd.closestGuides, attributes);
+  constexpr std::string_view kShape[] = {"curveVertexCounts", "type",     "wrap",
+                                         "xformOpOrder",      kUsdPoints, kUsdExtent};
   AbcOutProperty others{.name = ".arbGeomParams"};
   for (const UsdStageAttribute& attribute : attributes) {
     const bool isShape = std::ranges::find(kShape, attribute.name) != std::end(kShape);
@@ -145,6 +148,12 @@ void addAbcParams(const std::vector<UsdStageAttribute>& attributes, std::vector<
     (isOwn ? geometry : others.parts).push_back(std::move(param));
   }
   if (!others.parts.empty()) geometry.push_back(std::move(others));
+}
+
+std::string abcMeasuresOf(double metresPerUnit, std::optional<UpAxis> up) {
+  std::string text = fmt::format(";{}={}", kAbcUnit, metresPerUnit);
+  if (up) text += fmt::format(";{}={}", kAbcUp, *up == UpAxis::y ? "Y" : "Z");
+  return text;
 }
 
 // A matrix a frame.
@@ -173,8 +182,8 @@ AbcStage abcStageOf(const Groom& topology, const AnimationOptions& options) {
   HairStage hair = hairStageOf(topology, own);
   AbcStage stage{.archive = abcHairOf(topology), .margin = hair.curves.front().margin};
   AbcOutArchive& archive = stage.archive;
-  archive.metadata += fmt::format(";{}={};{}={};{}={}", kAbcRate, options.framesPerSecond, kAbcUnit,
-                                  options.metresPerUnit, kAbcUp, options.up == UpAxis::y ? "Y" : "Z");
+  archive.metadata += fmt::format(";{}={}", kAbcRate, options.framesPerSecond) +
+                      abcMeasuresOf(options.metresPerUnit, options.up);
   archive.samplings.push_back(
       {1 / options.framesPerSecond, options.usd.firstTimeCode / options.framesPerSecond, 0});
 
@@ -195,10 +204,27 @@ AbcStage abcStageOf(const Groom& topology, const AnimationOptions& options) {
                         .sampleBytes = pointBytes,
                         .isCounted = true,
                         .comesLater = true});
-  std::vector<UsdStageAttribute>& attributes = hair.stage.prims.front().attributes;
-  if (options.usd.unreal) addClosestGuides(options.usd.closestGuides, attributes);
-  addAbcParams(attributes, geometry);
+  addAbcParams(hair.stage.prims.front().attributes, options.usd, geometry);
   return stage;
+}
+
+AbcOutArchive abcGroomOf(const Groom& groom, const GroomWriting& writing) {
+  HairStage hair = groomStageOf(groom, writing);
+  std::vector<UsdStageAttribute>& attributes = hair.stage.prims.front().attributes;
+  AbcOutArchive archive = abcHairOf(groom);
+  archive.metadata += abcMeasuresOf(hair.stage.metresPerUnit, hair.stage.up);
+  std::vector<AbcOutProperty>& geometry = abcGeometryOf(archive);
+  for (AbcOutProperty& property : geometry) {
+    if (property.name == ".selfBnds") {
+      const auto extent = std::ranges::find(attributes, kUsdExtent, &UsdStageAttribute::name);
+      for (const double number : extent->numbers) putAbcF64(property.values, number);
+    } else if (property.name == kAbcPoints) {
+      property.values.resize(sizeof(Vec3f) * groom.points.size());
+      putAbcPoints(groom.points, property.values, 0);
+    }
+  }
+  addAbcParams(attributes, writing.usd, geometry);
+  return archive;
 }
 
 }  // namespace ringlet

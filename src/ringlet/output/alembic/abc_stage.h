@@ -4,6 +4,7 @@
 #include "ringlet/groom/alembic/abc_hair.h"
 #include "ringlet/groom/groom.h"
 #include "ringlet/output/animation_writer.h"
+#include "ringlet/output/groom_writer.h"
 
 namespace ringlet {
 
@@ -19,5 +20,8 @@ inline constexpr const char* kAbcRate = "_ai_DCC_FPS";
 /// `.velocities`. Of AnimationOptions::usd all counts but clipFrames and originPrims. The groom's points are
 /// looked at for the rest positions only, where these are asked for.
 AbcStage abcStageOf(const Groom& topology, const AnimationOptions& options);
+
+/// The same of a groom at rest, with its points: nothing has further samples, and no rate is stated.
+AbcOutArchive abcGroomOf(const Groom& groom, const GroomWriting& writing);
 
 }  // namespace ringlet

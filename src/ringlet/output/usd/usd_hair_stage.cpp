@@ -2,10 +2,12 @@
 #include "ringlet/output/usd/usd_hair_stage.h"
 
 #include <algorithm>
+#include <span>
 #include <string_view>
 #include <utility>
 
 #include "ringlet/base/assert.h"
+#include "ringlet/base/bounds.h"
 #include "ringlet/output/usd/usd_carried.h"
 #include "ringlet/output/usd/usd_unreal.h"
 
@@ -76,6 +78,13 @@ void addRest(const Groom& topology, const HairCurves& curves, std::vector<UsdSta
     rest.numbers.insert(rest.numbers.end(), {p.x, p.y, p.z});
   }
   list.push_back(std::move(rest));
+}
+
+std::vector<double> numbersOf(std::span<const Vec3f> points) {
+  std::vector<double> numbers;
+  numbers.reserve(3 * points.size());
+  for (const Vec3f p : points) numbers.insert(numbers.end(), {p.x, p.y, p.z});
+  return numbers;
 }
 
 bool holds(const std::vector<UsdStageAttribute>& list, std::string_view name) {
@@ -189,12 +198,31 @@ HairStage hairStageOf(const Groom& topology, const AnimationOptions& options) {
   std::vector<UsdStageAttribute> said;
   if (usd.origin) said = carriedValues(usd.origin->prims);
   UsdStagePrim prim{.name = "Hair", .type = "BasisCurves"};
-  prim.attributes = attributesOf(topology, curves, options, true,
+  prim.attributes = attributesOf(topology, curves, options, options.diameter > 0,
                                  usd.originValues ? said : std::vector<UsdStageAttribute>{});
   if (usd.unreal) addUnreal(topology, curves, usd, said, prim);
   curves.margin = marginOf(prim.attributes, options.diameter);
   made.stage.prims.push_back(std::move(prim));
   made.curves.push_back(std::move(curves));
+  return made;
+}
+
+HairStage groomStageOf(const Groom& groom, const GroomWriting& writing) {
+  const UsdExtras& usd = writing.usd;
+  RINGLET_ASSERT(usd.head == UsdHead::baked && !usd.velocities && !usd.originPrims && !usd.tipDiameter,
+                 "a groom rests, in one prim, and no width is known for it");
+  HairStage made =
+      hairStageOf(groom, {.metresPerUnit = groom.metresPerUnit, .diameter = 0, .frameCount = 0, .usd = usd});
+  made.stage.up = writing.up;
+  const Bounds box = boundsOf(groom.points);
+  const float margin = made.curves.front().margin;
+  const Vec3f more{margin, margin, margin};
+  const Vec3f corners[] = {Vec3f(box.low) - more, Vec3f(box.high) + more};
+  for (UsdStageAttribute& attribute : made.stage.prims.front().attributes) {
+    if (attribute.elementsOfSample == 0) continue;
+    attribute.elementsOfSample = 0;
+    attribute.numbers = attribute.name == kUsdPoints ? numbersOf(groom.points) : numbersOf(corners);
+  }
   return made;
 }
 

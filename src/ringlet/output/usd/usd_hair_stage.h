@@ -9,6 +9,7 @@
 #include "ringlet/groom/groom.h"
 #include "ringlet/groom/usd/usd_matrix.h"
 #include "ringlet/output/animation_writer.h"
+#include "ringlet/output/groom_writer.h"
 #include "ringlet/output/usd/usd_stage.h"
 
 namespace ringlet {
@@ -30,6 +31,10 @@ struct HairStage {
 /// One prim, /Hair; or, for changes of the groom's own prims (UsdExtras::originPrims), `over`s at their
 /// paths. The groom's points are looked at for the rest positions only, where these are asked for.
 HairStage hairStageOf(const Groom& topology, const AnimationOptions& options);
+
+/// A groom at rest: one prim, /Hair, with its points as they are, and nothing that has samples. Widths are
+/// those of the origin (UsdExtras::origin), or there are none.
+HairStage groomStageOf(const Groom& groom, const GroomWriting& writing);
 
 /// What moves, by its name.
 inline constexpr const char *kUsdPoints = "points", *kUsdExtent = "extent", *kUsdVelocities = "velocities",

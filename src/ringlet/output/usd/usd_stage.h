@@ -35,9 +35,9 @@ struct UsdStagePrim {
 struct UsdStage {
   std::string defaultPrim;
   double framesPerSecond = 24, metresPerUnit = 0.01;
-  UpAxis up = UpAxis::y;
-  int firstTimeCode = 1;  // of the first frame; each has one of its own
-  int frameCount = 0;     // most frames that will come
+  std::optional<UpAxis> up = UpAxis::y;  // none: it is not stated
+  int firstTimeCode = 1;                 // of the first frame; each has one of its own
+  int frameCount = 0;  // most frames that will come; 0: nothing has samples, and no times are stated
   std::vector<UsdStagePrim> prims;
 };
 

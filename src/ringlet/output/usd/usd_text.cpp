@@ -52,6 +52,16 @@ void appendElement(std::string& text, UsdStageType type, const double* numbers) 
   if (isMatrix) text += " )";
 }
 
+void appendPrim(std::string& text, const UsdStagePrim& prim, std::size_t indent) {
+  const std::string blanks(indent, ' ');
+  const std::string schemas = usdTextOf(prim.apiSchemas, indent + 4);
+  text += fmt::format("\n{}def {} \"{}\"{}\n{}{{\n", blanks, prim.type, prim.name,
+                      schemas.empty() ? "" : fmt::format(" (\n{}{})", schemas, blanks), blanks);
+  for (const UsdStageAttribute& attribute : prim.attributes) text += usdTextOf(attribute, indent + 4);
+  for (const UsdStagePrim& child : prim.children) appendPrim(text, child, indent + 4);
+  text += blanks + "}\n";
+}
+
 }  // namespace
 
 std::string usdTextOf(const UsdStageAttribute& attribute, std::size_t indent) {
@@ -81,6 +91,16 @@ std::string usdTextOf(const std::vector<std::string>& apiSchemas, std::size_t in
   std::string list;
   for (const std::string& schema : apiSchemas) list += (list.empty() ? "" : ", ") + quotedText(schema);
   return fmt::format("{}prepend apiSchemas = [{}]\n", std::string(indent, ' '), list);
+}
+
+std::string usdTextOf(const UsdStage& stage) {
+  RINGLET_ASSERT(stage.frameCount == 0, "a stage of what rests");
+  std::string text = fmt::format("#usda 1.0\n(\n    defaultPrim = \"{}\"\n    metersPerUnit = {}\n",
+                                 stage.defaultPrim, stage.metresPerUnit);
+  if (stage.up) text += fmt::format("    upAxis = \"{}\"\n", *stage.up == UpAxis::y ? 'Y' : 'Z');
+  text += ")\n";
+  for (const UsdStagePrim& prim : stage.prims) appendPrim(text, prim, 0);
+  return text;
 }
 
 std::string usdTextOf(const UsdTransform& transform) {

@@ -15,6 +15,9 @@ std::string usdTextOf(const UsdStageAttribute& attribute, std::size_t indent);
 /// "    prepend apiSchemas = ["GroomAPI"]", a line; nothing for none.
 std::string usdTextOf(const std::vector<std::string>& apiSchemas, std::size_t indent);
 
+/// A whole file of what rests.
+std::string usdTextOf(const UsdStage& stage);
+
 /// "( (1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1) )".
 std::string usdTextOf(const UsdTransform& transform);
 

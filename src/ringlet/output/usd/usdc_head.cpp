@@ -159,6 +159,7 @@ class HeadMaker {
     for (const char c : kMagic) bytes.push_back(static_cast<std::byte>(c));
     for (const unsigned part : {0u, kWrittenMinor}) bytes.push_back(static_cast<std::byte>(part));
     bytes.resize(kHeaderSize);
+    if (stage_.frameCount == 0) return;
     for (const char c : kUsdcMark) bytes.push_back(static_cast<std::byte>(c));
 
     // The times, which all that moves shares.
@@ -180,17 +181,19 @@ class HeadMaker {
   }
 
   void addRoot() {
-    const Rep end = real(stage_.firstTimeCode - 1);
-    head_.endTimeCodeAt = end.payload();
-    addPath(tokenOf(""),
-            {{"defaultPrim", token(stage_.defaultPrim)},
-             {"endTimeCode", end},
-             {"metersPerUnit", real(stage_.metresPerUnit)},
-             {"startTimeCode", real(stage_.firstTimeCode)},
-             {"timeCodesPerSecond", real(stage_.framesPerSecond)},
-             {"upAxis", token(stage_.up == UpAxis::y ? "Y" : "Z")},
-             {"primChildren", nameVector(stage_.prims)}},
-            SpecType::root);
+    Fields fields{{"defaultPrim", token(stage_.defaultPrim)}};
+    if (stage_.frameCount > 0) {
+      fields.push_back({"endTimeCode", real(stage_.firstTimeCode - 1)});
+      head_.endTimeCodeAt = fields.back().second.payload();
+    }
+    fields.push_back({"metersPerUnit", real(stage_.metresPerUnit)});
+    if (stage_.frameCount > 0) {
+      fields.push_back({"startTimeCode", real(stage_.firstTimeCode)});
+      fields.push_back({"timeCodesPerSecond", real(stage_.framesPerSecond)});
+    }
+    if (stage_.up) fields.push_back({"upAxis", token(*stage_.up == UpAxis::y ? "Y" : "Z")});
+    fields.push_back({"primChildren", nameVector(stage_.prims)});
+    addPath(tokenOf(""), fields, SpecType::root);
   }
 
   void addPrim(const UsdStagePrim& prim, const std::string& above) {

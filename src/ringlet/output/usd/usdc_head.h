@@ -54,8 +54,8 @@ struct UsdcHead {
   }
 };
 
-/// The head of such a stage, with room for its frames, of which there is none yet. Attributes have types that
-/// usdTypeOf knows.
+/// The head of such a stage, with room for its frames, of which there is none yet. Without frames it is a
+/// whole crate of what rests, and has no mark. Attributes have types that usdTypeOf knows.
 UsdcHead usdcHeadOf(const UsdStage& stage);
 
 }  // namespace ringlet

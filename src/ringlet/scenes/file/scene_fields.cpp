@@ -61,7 +61,7 @@ std::span<const SceneField<SceneGroom>> groomFields() {
        &G::generate,
        {},
        kGenerated},
-      {"unit", "m", "what a USD file states, else 0.01: centimetres",
+      {"unit", "m", "what the file states, else 0.01: centimetres",
        "Metres per unit of the file and of the results.", &G::metresPerUnit, kUnit},
       {"up",
        "",
