@@ -64,7 +64,7 @@ TEST(Usage, WrongCommandLinesExitWith2AndSayWhatWouldBeRight) {
       {{"simulat"}, "did you mean simulate?"},
       {{"make", "crul", "-o", "a.obj"}, "did you mean curl?"},
       {{"make", "curl"}, "--output is required"},
-      {{"make", "curl", "-o", "a.abc"}, "must end in .obj or .hair or .ply"},
+      {{"make", "curl", "-o", "a.xyz"}, "must end in .hair or .obj or .ply or .abc or .usda or .usdc"},
       {{"make", "curl", "--turns", "-3", "-o", "a.obj"}, "turns"},
       {{"make", "curl", "--length", "nan", "-o", "a.obj"}, "length"},
       {{"simulate"}, "GROOM is required"},
