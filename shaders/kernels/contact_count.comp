@@ -18,6 +18,7 @@ bool hasOthersNear(ivec3 cell, uint group) {
 }
 
 void main() {
+  readControl();
   uint c = gl_GlobalInvocationID.x;
   if (c >= numbers.contactCount) return;
   ContactRest rest = contactOf(c);

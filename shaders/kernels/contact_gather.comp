@@ -25,11 +25,12 @@ void add(uint entry, ContactForce force, vec3 otherVelocity) {
 }
 
 void main() {
-  if (control.isHalted != 0 || gl_GlobalInvocationID.x >= control.meetingCount) return;
+  readControl();
+  if (now.isHalted || gl_GlobalInvocationID.x >= now.meetingCount) return;
   uint c = lists[meetingPlace(gl_GlobalInvocationID.x)];
   ContactRest rest = contactOf(c);
   v = velocityOf(rest.particle);
-  uint list = liveListOf(c, control.parity);
+  uint list = liveListOf(c, now.parity);
   uint count = liveLists[list];
   uint first = 0;
   if (count > 0) do {

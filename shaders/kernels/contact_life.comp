@@ -24,7 +24,7 @@ void append(ContactForce force, ContactLife life) {
   if (block < numbers.liveBlockCount) {
     uint entry = block * kLiveBlock + count % kLiveBlock;
     forces[entry] = force;
-    lives[lifeEntry(control.parity, entry)] = life;
+    lives[lifeEntry(now.parity, entry)] = life;
   }
   ++count;
 }
@@ -61,7 +61,7 @@ void liveOn(ContactLife before[kAtOnce], uint those) {
 
 uint listBefore;  // the list of the last step's contacts, and their number
 uint countBefore;
-ContactLife lifeBefore(uint j) { return lifeAt(lifeEntry(control.parity ^ 1, forceEntry(listBefore, j))); }
+ContactLife lifeBefore(uint j) { return lifeAt(lifeEntry(now.parity ^ 1, forceEntry(listBefore, j))); }
 
 uint sought = 0;  // where the last contact was found: both lists have the same order
 bool wasCutShort = false;  // the driver ended a loop early
@@ -93,14 +93,16 @@ bool isKnown(uint particle) {
 // Each choice is a loop of its own, over the bits for which it is true: a driver that runs invocations in lockstep runs
 // an `if` for all of them. Loops test their condition after the body, which saves such a driver one turn.
 void main() {
-  if (control.isHalted != 0 || gl_GlobalInvocationID.x >= control.meetingCount) return;
+  readControl();
+  uint longest = control.longestLive;
+  if (now.isHalted || gl_GlobalInvocationID.x >= now.meetingCount) return;
   uint c = lists[meetingPlace(gl_GlobalInvocationID.x)];
   rest = contactOf(c);
   x = positionOf(rest.particle);
   v = velocityOf(rest.particle);
   guess = guessOf(rest.particle).xyz;
-  list = liveListOf(c, control.parity);
-  listBefore = liveListOf(c, control.parity ^ 1);
+  list = liveListOf(c, now.parity);
+  listBefore = liveListOf(c, now.parity ^ 1);
   countBefore = liveLists[listBefore];
 
   // Contacts of the last step.
@@ -144,7 +146,7 @@ void main() {
     ++made;
   } while (++b < blockCount);
   liveLists[list] = count;
-  if (count > control.longestLive) atomicMax(control.longestLive, count);
+  if (count > longest) atomicMax(control.longestLive, count);
   if (made != wanted || wasCutShort) control.isHalted = kHaltedByTurns;
   setSystem(rest, terms);
 }

@@ -32,8 +32,8 @@ void measure(uint c) {
   vec3 v = velocityOf(particle);
   motion = larger(motion, length(x - listedPosition(c)) + numbers.seconds * length(v - listedVelocity(c)));
   speed = larger(speed, length(v));
-  vec3 change = control.steps > 0 ? lastVelocityOf(particle) - predictedBefore(c) : vec3(0);
-  histories[c].predicted[control.parity ^ 1] = vec4(v, 0);
+  vec3 change = now.steps > 0 ? lastVelocityOf(particle) - predictedBefore(c) : vec3(0);
+  histories[c].predicted[now.parity ^ 1] = vec4(v, 0);
   guesses[particle] = vec4(v + numbers.warmth * change, rest.radius);
   if (kInGroups) {
     uint group = groupOf(rest.strand);
@@ -44,7 +44,7 @@ void measure(uint c) {
 }
 
 void measureAll() {
-  if (control.isHalted != 0) return;
+  if (now.isHalted) return;
   uint invocations = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
   for (uint c = gl_GlobalInvocationID.x; c < numbers.contactCount; c += invocations) measure(c);
   // The bits of numbers >= 0 have the same order as the numbers. Most values are below the maximum so far,
@@ -54,6 +54,7 @@ void measureAll() {
 }
 
 void main() {
+  readControl();
   measureAll();
   if (kDivided && parameters.whose == kOfHere) return;
   if (isLastGroup() && gl_LocalInvocationID.x == 0) decideLists();

@@ -34,6 +34,8 @@ void take(ContactRest other, float R, float r0) {
 }
 
 void main() {
+  readControl();
+  uint longest = control.longestList;
   uint place = gl_GlobalInvocationID.x;
   if (place >= placedCount()) return;
   uint c = placedVelocity(place).w;
@@ -48,7 +50,7 @@ void main() {
   if (!search(c, uintBitsToFloat(self.xyz), velocity, self.w, numbers.skin, 0, kSearchRows))
     control.isHalted = kHaltedByTurns;
   lists[list] = count;
-  if (count > control.longestList) atomicMax(control.longestList, count);
+  if (count > longest) atomicMax(control.longestList, count);
   setListed(c, x, v);
   atomicAdd(control.listed, count);
 }

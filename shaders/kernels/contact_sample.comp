@@ -55,6 +55,7 @@ void addLanes(uint lane, uint particles) {
 }
 
 void main() {
+  readControl();
   uint particles = sampledOfGroup();
   uint lane = gl_LocalInvocationID.x / particles;
   uint c = sampledContact(gl_WorkGroupID.x * particles + gl_LocalInvocationID.x % particles);

@@ -21,7 +21,8 @@ bool add(ContactPair pair, vec3 otherX, vec3 otherV, bool pushes) {
 }
 
 void main() {
-  if (control.isHalted != 0 || gl_GlobalInvocationID.x >= control.meetingCount) return;
+  readControl();
+  if (now.isHalted || gl_GlobalInvocationID.x >= now.meetingCount) return;
   uint c = lists[meetingPlace(gl_GlobalInvocationID.x)];
   rest = contactOf(c);
   x = positionOf(rest.particle);

@@ -18,8 +18,8 @@ vec3 v;
 #ifdef RINGLET_TAPER_TIME
 const uint kMeeting = ~((1u << kListBlock) - 1);  // the bits that mean a contact
 bool metBefore(uint c) {
-  liveLists[liveListOf(c, control.parity)] = 0;
-  return liveLists[liveListOf(c, control.parity ^ 1)] > 0;
+  liveLists[liveListOf(c, now.parity)] = 0;
+  return liveLists[liveListOf(c, now.parity ^ 1)] > 0;
 }
 void setMeets(uint c, bool meets) {}
 void beginTerms() {}
@@ -59,10 +59,12 @@ uint look(ContactPair pair, vec3 otherX, vec3 otherV, bool isThere) {
 }
 
 void main() {
-  if (control.isHalted != 0) return;
+  readControl();
+  bool hadRoom = listsHadRoom();
+  if (now.isHalted) return;
   uint c = gl_GlobalInvocationID.x;
   if (c == 0) checkLists();  // invocations that see it halted already would return for lack of room too
-  if (!listsHadRoom() || c >= numbers.contactCount) return;
+  if (!hadRoom || c >= numbers.contactCount) return;
   if (kInGroups) emptyCells(c);
   ContactRest rest = contactOf(c);
   if (isElsewhere(rest.strand)) return;

@@ -77,6 +77,19 @@ bool isBefore(uint particle, uint other) {
 }
 uvec4 placedPosition(uint place) { return kTexels ? recordAt(placeTexels, 2 * place) : places[place].position; }
 uvec4 placedVelocity(uint place) { return kTexels ? recordAt(placeTexels, 2 * place + 1) : places[place].velocity; }
+/// Numbers of ContactControl that do not change in a dispatch that reads them. main reads them first
+/// (readControl): a number of a buffer that is one for all lanes may be read lane by lane behind a branch.
+struct Now {
+  bool isHalted;
+  uint parity, steps, meetingCount;
+  float cellSize, cellsPerMetre;
+};
+Now now;
+void readControl() {
+  now = Now(control.isHalted != 0, control.parity, control.steps, control.meetingCount, control.cellSize,
+            control.cellsPerMetre);
+}
+
 vec3 listedPosition(uint c) { return kTexels ? vectorAt(historyTexels, 4 * c).xyz : histories[c].position.xyz; }
 vec3 listedVelocity(uint c) { return kTexels ? vectorAt(historyTexels, 4 * c + 1).xyz : histories[c].velocity.xyz; }
 void setListed(uint c, vec3 x, vec3 v) {
@@ -84,7 +97,7 @@ void setListed(uint c, vec3 x, vec3 v) {
   histories[c].velocity = vec4(v, 0);
 }
 vec3 predictedBefore(uint c) {
-  return kTexels ? vectorAt(historyTexels, 4 * c + 2 + control.parity).xyz : histories[c].predicted[control.parity].xyz;
+  return kTexels ? vectorAt(historyTexels, 4 * c + 2 + now.parity).xyz : histories[c].predicted[now.parity].xyz;
 }
 /// xyz: the guessed velocity [m/s]; w: the radius [m].
 vec4 guessOf(uint particle) { return kTexels ? vectorAt(guessTexels, particle) : guesses[particle]; }
@@ -113,7 +126,7 @@ const uint kSampleLanes = kForGpu ? 9 : 1;
 /// Particles of a sample for each workgroup.
 uint sampledOfGroup() { return gl_WorkGroupSize.x / kSampleLanes; }
 uint sampledContact(uint k) {
-  uint remainder = control.steps % numbers.sampleStride;
+  uint remainder = now.steps % numbers.sampleStride;
   if (kDivided) {
     uint at = sampled[remainder] + k;
     return at < sampled[remainder + 1] ? sampled[at] : kNoContact;
@@ -151,7 +164,7 @@ uint startOf(uint bucket) { return grid[gridStart(bucket)] + grid[gridSum(bucket
 // The coordinate is a product and not a quotient: Vulkan specifies the rounding of products exactly, and two kernels
 // must find the same cell for the same place.
 ivec3 cellOf(vec3 x) {
-  float cellsPerMetre = kInGroups ? numbers.cellsPerMetre : control.cellsPerMetre;
+  float cellsPerMetre = kInGroups ? numbers.cellsPerMetre : now.cellsPerMetre;
   return ivec3(clamp(floor(x * cellsPerMetre), vec3(-1073741824.0), vec3(1073741824.0)));
 }
 uint bucketOf(ivec3 cell) {
@@ -194,7 +207,8 @@ Partners partnersAt(uint entries[kAtOnce]) {
 
 /// Whether every list had room for all its pairs.
 bool listsHadRoom() {
-  return control.blocks <= numbers.blockCount && control.longestList <= numbers.mostBlocks * kListBlock;
+  uint blocks = control.blocks, longest = control.longestList;
+  return blocks <= numbers.blockCount && longest <= numbers.mostBlocks * kListBlock;
 }
 /// Called by one invocation. If lists had no room, contact kernels do nothing until the host has enlarged the
 /// buffers. If they had, the step has tested every pair in them.

@@ -48,7 +48,7 @@ bool search(uint c, vec3 position, vec3 velocity, uint group, float skin, int ro
   v = velocity;
   // An upper bound of the reach of all pairs, from the largest radius and the largest speed.
   float mostR = rest.radius + numbers.largestRadius;
-  precise float farthest = min(numbers.listedAhead * mostR + skin, control.cellSize);
+  precise float farthest = min(numbers.listedAhead * mostR + skin, now.cellSize);
   ivec3 cell = cellOf(x);
   uint placed = placedCount();
   uint wanted = rowEnd - row;  // turns that the loops below should make; `made` counts those they made
