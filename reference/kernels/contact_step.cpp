@@ -169,7 +169,7 @@ void rememberChanges(const Field<Real>& velocities, Contacts<Real>& contacts) {
     contacts.changes.push_back((velocities[i] - contacts.freeVelocities[i]).template cast<double>());
   Field<double> ends;
   for (const Vector3<Real>& v : velocities) ends.push_back(v.template cast<double>());
-  endVolume(ends, contacts.isPinned, contacts.volume);
+  if (!contacts.volumeSystem.momenta.empty()) endVolume(contacts.volumeSystem, ends, contacts.volume);
 }
 
 template <class Real>
@@ -193,10 +193,9 @@ void solveContacts(const ContactSettings& settings, const VolumeFrame& frame,
     if (iteration > 0) dropUnmet(solved, contacts);
     gatherContacts(velocities.size(), contacts);
     momenta = pairMomenta(contacts, solved);
-    Field<double> heard = solved;  // of what the volume's means are
-    if (iteration == 0)
-      for (const VolumeParticle& p : contacts.volume.particles) heard[p.index] = p.guess;
-    addVolume(volumeMeans(settings, frame, places, heard, contacts.volume), contacts, momenta);
+    if (iteration > 0) bringVolume(solved, contacts.volume);
+    contacts.volumeSystem = volumeMeans(settings, frame, places, contacts.volume);
+    addVolume(contacts.volumeSystem, contacts, momenta);
     setContactWeights(firstPoint, contacts, systems);
     for (std::size_t s = 0; s < systems.size(); ++s) {
       const std::size_t first = firstPoint[s], count = firstPoint[s + 1] - first;

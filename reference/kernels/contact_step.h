@@ -43,6 +43,7 @@ struct Contacts {
   std::uint64_t pairTests = 0;      // pairs looked at for that, in all steps
 
   Volume volume;               // of strands that meet as one
+  VolumeSystem volumeSystem;   // of the last iteration
   bool pairByPair = true;      // some strands may meet so
   std::vector<bool> isPinned;  // of each particle: it follows the head
 

@@ -28,21 +28,26 @@ struct VolumeFrame {
   }
 };
 
-/// A particle of such a strand: one in a stride, which represents that number of particles.
+/// Some consecutive particles of such a strand, represented by their mean. Of these, `pinned` at the start
+/// follow the head, and those from `present` on have fallen.
 struct VolumeParticle {
-  std::uint32_t index = 0;             // groom order
-  double mass = 0, ownDensity = 0;     // [kg], at rest [kg/m^3]
-  double restDensity = 0;              // of all of them [kg/m^3]
-  double density = 0;                  // about it in the last step [kg/m^3]
-  double share = 0;                    // o of this step
-  bool isKnown = false;                // false: the hair was just put there
-  double gain = 0;                     // g of the last iteration [kg]
-  Vector3<double> momentum{0, 0, 0};   // and what stood with it on the right-hand side [kg m/s]
-  Vector3<double> given{0, 0, 0};      // J of the last step: momentum - g v [kg m/s]
-  Vector3<double> guess{0, 0, 0};      // of the velocity, that its first iteration's means are of [m/s]
-  Vector3<double> memory{0, 0, 0};     // s [m]
-  Vector3<double> place{0, 0, 0};      // in the head's frame, at the start of the step [m]
-  Vector3<double> gridPlace{0, 0, 0};  // and on the grid [m]
+  std::uint32_t first = 0;  // groom order
+  std::uint32_t count = 1, present = 1, pinned = 0;
+  double mass = 0, ownDensity = 0;    // [kg], at rest [kg/m^3]
+  double restDensity = 0;             // of all of them [kg/m^3]
+  double density = 0;                 // about it in the last step [kg/m^3]
+  double share = 0;                   // o of this step
+  bool isKnown = false;               // false: the hair was just put there
+  double gain = 0;                    // g of the last iteration [kg]
+  Vector3<double> given{0, 0, 0};     // J of the last step: momentum - g v [kg m/s]
+  Vector3<double> velocity{0, 0, 0};  // that the means are of; in the first iteration guessed [m/s]
+  Matrix3<double> gradient = Matrix3<double>::Zero();  // C, in the head's frame [1/s]
+  Vector3<double> memory{0, 0, 0};                     // s [m]
+  Vector3<double> place{0, 0, 0};                      // in the head's frame, at the start of the step [m]
+  Vector3<double> gridPlace{0, 0, 0};                  // and on the grid [m]
+
+  /// Of those present, from values in groom order; 0 if none is.
+  Vector3<double> mean(const Field<double>& values) const;
 };
 
 struct Volume {
@@ -52,7 +57,8 @@ struct Volume {
 
   bool isEmpty() const { return particles.empty(); }
   void forget();
-  /// The particles [begin, end) are of it no more: they have fallen.
+  /// The particles [begin, end) are of it no more: they have fallen. These are all that is left of a strand
+  /// beyond a place.
   void release(std::uint32_t begin, std::uint32_t end);
   void archive(Archive& archive);
 };
@@ -67,8 +73,8 @@ Volume makeVolume(const std::vector<RestStrand<Real>>& strands, std::span<const 
 void beginVolume(const ContactSettings& settings, const VolumeFrame& frame, const Field<double>& positions,
                  const Field<double>& freeVelocities, const Field<double>& changes, Volume& volume);
 
-/// Its end: what each particle got, at the velocities [m/s] that it ended with.
-void endVolume(const Field<double>& velocities, const std::vector<bool>& isPinned, Volume& volume);
+/// Before a later iteration: the velocities of the last iterate [m/s].
+void bringVolume(const Field<double>& velocities, Volume& volume);
 
 /// Of each particle of the groom: what the volume adds to its mass [kg], g, and to its right-hand side [kg
 /// m/s].
@@ -77,8 +83,12 @@ struct VolumeSystem {
   Field<double> momenta;
 };
 
-/// From the velocities of the last iterate [m/s]. Sets the density about each particle.
+/// From the velocities that beginVolume or bringVolume set. Sets the density about each particle, and C.
 VolumeSystem volumeMeans(const ContactSettings& settings, const VolumeFrame& frame,
-                         const Field<double>& positions, const Field<double>& velocities, Volume& volume);
+                         const Field<double>& positions, Volume& volume);
+
+/// The end of a step: what each particle got from the last iteration's means, at the velocities [m/s] that it
+/// ended with.
+void endVolume(const VolumeSystem& system, const Field<double>& velocities, Volume& volume);
 
 }  // namespace ringlet::reference

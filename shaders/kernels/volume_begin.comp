@@ -9,20 +9,25 @@
 void main() {
   uint seen = control.largest;
   float cell = control.cell;
+  Reach reached = readReach();
   uint i;
   if (!findParticle(i)) return;
   VolumeParticle self = volumeParticle(i);
   VolumeState before = volumeState(i);
   bool isKnown = before.isKnown > 0.0;
-  vec3 v = velocityOf(self.particle);
-  vec3 x = positionOf(self.particle);
+  VolumeMotion motion = meanMotion(self);
+  vec3 v = motion.velocity, x = motion.place;
   vec3 place = inHeadFrame(x);
   vec3 s = isKnown ? fadedDisplacement(before.displacement, place - before.place, numbers.kept) : vec3(0);
-  vec3 last = lastVelocityOf(self.particle);
-  vec4 added = addedTo(self.particle);
-  // J / m, for a particle that is part of the volume and does not follow the head.
-  bool isFree = self.inverseMassUnit * self.mass > 0.0;
-  vec3 given = isFree ? (added.xyz - added.w * last) / (self.inverseMassUnit * self.mass) : vec3(0);
+  precise vec3 last = vec3(0), given = vec3(0);  // given: J, to those that do not follow the head
+  for (uint j = 0; j < self.present; ++j) {
+    vec3 each = lastVelocityOf(self.first + j);
+    vec4 added = addedTo(self.first + j);
+    last += each;
+    given += added.xyz - added.w * each;
+  }
+  last /= max(float(self.present), 1.0);
+  given = self.mass > 0.0 ? given / (self.inverseMassUnit * self.mass) : vec3(0);
   vec3 change = isKnown ? guessedChange(numbers.warmth, gain(), last - before.predicted, given) : vec3(0);
   // A strand is a line: cells n times as large hold n times its mass in n^3 times the volume.
   float coarser = cell > numbers.cell ? numbers.cell / cell : 1.0;
@@ -30,8 +35,9 @@ void main() {
   vec4 rate = rateFrom(mass, v + change, x, s, seen);
   states[i] = VolumeState(s, before.density, place, mass, v, 1);
   if (parameters.sorts != 0) {
-    brought[i] = rate;
-    if (self.mass > 0.0) reachTo(place);  // fallen hair has no mass: it is not part of the volume any more
+    mat3 gradient = isKnown ? gradientOf(parcelAt(locatedAt(i).w)) : mat3(0);
+    brought[i] = VolumeBrought(rate, vec4(gradient[0], 0), vec4(gradient[1], 0), vec4(gradient[2], 0));
+    if (self.mass > 0.0) reachTo(place, reached);  // fallen hair has no mass: it is not part of the volume any more
   } else {
     parcels[locatedAt(i).w].rate = rate;
   }

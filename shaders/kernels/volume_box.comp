@@ -34,7 +34,9 @@ void main() {
     control.greatest[axis] = -0x7fffffff;
     control.indirectBlocks[axis] = 1;
     control.indirectNodes[axis] = 1;
+    control.indirectFilled[axis] = 1;
   }
   control.indirectBlocks[0] = control.cellCount / kBucketBlock + 1;
+  for (uint bin = 0; bin < kNodeBins; ++bin) cells[nodeBin(bin)] = 0;
   control.indirectNodes[0] = groupsOf(kNodeLanes * control.cellCount);
 }

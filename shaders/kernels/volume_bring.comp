@@ -8,7 +8,7 @@ void main() {
   uint seen = control.largest;
   uint i;
   if (!findParticle(i)) return;
-  uint particle = volumeParticle(i).particle;
+  VolumeMotion motion = meanMotion(volumeParticle(i));
   parcels[locatedAt(i).w].rate =
-      rateFrom(countedMassOf(i), velocityOf(particle), positionOf(particle), displacementOf(i), seen);
+      rateFrom(countedMassOf(i), motion.velocity, motion.place, displacementOf(i), seen);
 }

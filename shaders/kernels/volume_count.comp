@@ -5,6 +5,7 @@
 #include "shared/volume_buffers.glsl"
 
 void main() {
+  readBox();
   uint i;
   if (!findParticle(i)) return;
   uint cell = cellIndex(cellInBox(placeInCells(placeOf(i))));

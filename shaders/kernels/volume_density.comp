@@ -2,16 +2,18 @@
 // particle moves on the grid. If strands are divided among devices, it computes the sums over the particles here.
 // Mirrored by reference/kernels/volume_step.h.
 #version 450
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume_nodes.glsl"
 
-void take(VolumeParcel parcel, float weight) {
-  int term = int(roundEven(weight * parcel.mass));
+void take(VolumeParcel parcel, uint place, vec3 apart, float weight) {
+  int term = int(roundEven(weight * uintBitsToFloat(cellNumber(parcelMass(place)))));
   high.x += term >> 16;
   low.x += term & 0xffff;
 }
 
 void main() {
+  readBox();
   uint node;
   if (!sumAround(node)) return;
   if (!kDivided) {

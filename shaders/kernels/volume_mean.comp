@@ -6,8 +6,9 @@
 #include "shared/volume_buffers.glsl"
 
 void main() {
+  readBox();
   uint node = gl_GlobalInvocationID.x;
-  if (halt.isHalted != 0 || node >= control.cellCount) return;
+  if (halt.isHalted != 0 || node >= box.cellCount) return;
   ivec4 high, low;
   for (uint k = 0; k < 4; ++k) {
     high[k] = sums[nodeSum(node) + k];

@@ -5,10 +5,14 @@
 #include "shared/volume_buffers.glsl"
 
 void main() {
+  readBox();
   uint i;
   if (!findParticle(i)) return;
   uint place = startOf(cellNumber(cellOf(i))) + cellNumber(cellRank(i));
   vec3 inCells = placeInCells(placeOf(i));
-  parcels[place] = VolumeParcel(broughtBy(i), inCells, numbers.unitsPerMass * volumeParticle(i).mass);
+  VolumeBrought bring = broughtBy(i);
+  parcels[place].rate = bring.rate;
+  setParcel(place, inCells, mat3(bring.gradientX.xyz, bring.gradientY.xyz, bring.gradientZ.xyz));
+  cells[parcelMass(place)] = floatBitsToUint(numbers.unitsPerMass * volumeParticle(i).mass);
   located[i] = uvec4(floatBitsToUint(inCells), place);
 }

@@ -6,22 +6,34 @@
 #include "shared/volume_buffers.glsl"
 
 void main() {
+  readBox();
   uint i;
   if (!findParticle(i)) return;
   VolumeParticle self = volumeParticle(i);
   vec3 s = displacementOf(i);
   float mass = countedMassOf(i);
   float g = mass * gain();
-  vec3 inCells = uintBitsToFloat(locatedAt(i).xyz);
+  uvec4 located = locatedAt(i);
+  vec3 inCells = uintBitsToFloat(located.xyz);
   uvec3 cell = cellInBox(inCells);
   vec4 mean = vec4(0);
+  mat3 gradient = mat3(0);
   [[unroll]] for (uint corner = 0; corner < 8; ++corner) {
     uvec3 node = cornerOf(cell, corner);
-    mean += nodeWeight(inCells - vec3(node)) * nodeAt(cellIndex(node));
+    vec3 apart = inCells - vec3(node);
+    vec4 there = nodeAt(cellIndex(node));
+    mean += nodeWeight(apart) * there;
+    gradient += outerProduct(there.xyz, nodeGradient(apart, vec3(node - cell)));
   }
+  gradient *= box.cellsPerMetre;
   states[i].density = mean.w;
+  setParcel(located.w, inCells, keptGradient(gradient, inCells - vec3(cell), numbers.rim, numbers.gradient));
 
-  vec3 given = mass * (mean.xyz - numbers.stiffness * numbers.seconds * s);
-  vec3 momentum = inWorld(given) + g * carriedVelocity(positionOf(self.particle));
-  addedByVolume[self.particle] = self.inverseMassUnit * vec4(momentum, g);
+  vec3 given = inWorld(mass * (mean.xyz - numbers.stiffness * numbers.seconds * s));
+  float share = self.inverseMassUnit / max(float(self.present), 1.0);
+  for (uint j = 0; j < self.count; ++j) {
+    bool gets = j >= self.pinned && j < self.present;
+    vec3 momentum = given + g * carriedVelocity(positionOf(self.first + j));
+    addedByVolume[self.first + j] = gets ? share * vec4(momentum, g) : vec4(0);
+  }
 }

@@ -15,7 +15,7 @@ RINGLET_CONSTANT uint kBindVolumeSolved = 2;      // vec4[particles]: v^k
 RINGLET_CONSTANT uint kBindVolumePoses = 3;       // uniform: StepPose[kMaxStepPoses]
 RINGLET_CONSTANT uint kBindVolumeParticles = 4;   // VolumeParticle[volume particles]
 RINGLET_CONSTANT uint kBindVolumeStates = 5;      // VolumeState[volume particles]
-RINGLET_CONSTANT uint kBindVolumeBrought = 6;     // vec4[volume particles]: as VolumeParcel's rate, first iterate
+RINGLET_CONSTANT uint kBindVolumeBrought = 6;     // VolumeBrought[volume particles]
 RINGLET_CONSTANT uint kBindVolumeCells = 7;       // uint: see cellCount and the functions after it in
                                                   // shared/volume_buffers.glsl
 RINGLET_CONSTANT uint kBindVolumeParcels = 8;     // VolumeParcel[volume particles], sorted by cell, in any
@@ -34,10 +34,10 @@ RINGLET_CONSTANT uint kVolumeBindingCount = 15;
 RINGLET_CONSTANT uint kBindVolumePositionTexels = 15;
 RINGLET_CONSTANT uint kBindVolumeVelocityTexels = 16;
 RINGLET_CONSTANT uint kBindVolumeSolvedTexels = 17;
-RINGLET_CONSTANT uint kBindVolumeParticleTexels = 18;
+RINGLET_CONSTANT uint kBindVolumeParticleTexels = 18;  // 2 a volume particle
 RINGLET_CONSTANT uint kBindVolumeStateTexels = 19;  // 3 a volume particle
-RINGLET_CONSTANT uint kBindVolumeBroughtTexels = 20;
-RINGLET_CONSTANT uint kBindVolumeParcelTexels = 21;  // 2 a volume particle
+RINGLET_CONSTANT uint kBindVolumeBroughtTexels = 20;  // 4 a volume particle
+RINGLET_CONSTANT uint kBindVolumeParcelTexels = 21;   // 4 a volume particle
 RINGLET_CONSTANT uint kBindVolumeNodeTexels = 22;
 RINGLET_CONSTANT uint kBindVolumeLocatedTexels = 23;
 RINGLET_CONSTANT uint kBindVolumeCellTexels = 24;  // four numbers each
@@ -45,13 +45,17 @@ RINGLET_CONSTANT uint kBindVolumeAddedTexels = 25;
 RINGLET_CONSTANT uint kBindVolumeNumbers = 26;  // uniform: VolumeNumbers
 RINGLET_CONSTANT uint kVolumeTexelBindingCount = 11;
 
-// Constant for each volume particle, in device order. A strand of the volume has one for several of its
-// particles.
+// Constant for each volume particle, in device order: it represents some consecutive particles of a strand by
+// their mean. Of these, `pinned` at the start follow the head, and those from `present` on have fallen.
 struct VolumeParticle {
-  uint particle;
-  float mass;             // total mass of the particles that it represents [kg]
+  uint first;  // particle
+  uint count;
+  uint present;
+  uint pinned;
+  float mass;             // total mass of those present [kg]
   float ownDensity;       // of its own strand at its place at rest [kg/m^3]
-  float inverseMassUnit;  // 1 / the strand's mass unit [1/kg]; 0 for a particle that follows the head
+  float inverseMassUnit;  // 1 / the strand's mass unit [1/kg]
+  float unused;
 };
 
 // The state that a volume particle keeps from step to step.
@@ -69,10 +73,22 @@ struct VolumeState {
 // to the nearest integer: rounding towards 0 would hold hair back, by 1e-5 m in half a second.
 RINGLET_CONSTANT uint kVolumeUnits = 1u << 30;
 struct VolumeParcel {
-  vec4 rate;   // xyz: g a, of unit unitsPerGain / mostRate; w: g, of unit unitsPerGain (VolumeNumbers)
-  vec3 place;  // in units of cells, from the box's first node
-  float mass;  // of unit unitsPerMass
+  vec4 rate;       // xyz: g a, of unit unitsPerGain / mostRate; w: g, of unit unitsPerGain (VolumeNumbers)
+  vec4 place;      // xyz: in units of cells, from the box's first node; w: of C's column along z the first
+  vec4 gradientX;  // xyz: C's column along x [1/s]; w: of that along z the second
+  vec4 gradientY;  // likewise along y, and the third
 };
+
+// What a step that sorts brings to the parcels before these have places.
+struct VolumeBrought {
+  vec4 rate;       // as VolumeParcel's, of the first iterate
+  vec4 gradientX;  // columns of C
+  vec4 gradientY;
+  vec4 gradientZ;
+};
+
+// Bins of nodes by the number of parcels around them.
+RINGLET_CONSTANT uint kNodeBins = 64;
 
 // The box of cells around all volume particles, and the state that the volume's kernels share.
 struct VolumeControl {
@@ -90,6 +106,8 @@ struct VolumeControl {
   uint size[3];            // number of cells along each axis
   float largestCell;       // largest cell size so far [m]
   uint finished;           // workgroups of this dispatch that are done (shared/last_group.glsl)
+  uint indirectFilled[3];  // workgroups over nodes with parcels around them
+  uint filled;             // number of these
 };
 
 // Push constants of a dispatch.
@@ -107,7 +125,9 @@ struct VolumeNumbers {
   float drag;         // lambda [1/s]
   float stiffness;    // k [1/s^2]
   float kept;         // share of a displacement that is left a step later, exp(-T / tau)
-  float warmth;       // kVolumeWarmth
+  float warmth;       // volumeWarmth
+  float gradient;     // kVolumeGradient
+  float rim;          // kVolumeRim
   float mostRate;      // largest component of a that the sums can hold, volumeMostRate [m/s]
   float unitsPerGain;  // kVolumeUnits per largest g [1/kg]
   float unitsPerMass;  // kVolumeUnits per largest mass [1/kg]

@@ -17,7 +17,7 @@ layout(set = 0, binding = kBindVolumeSolved) readonly buffer Solved { vec4 solve
 layout(set = 0, binding = kBindVolumePoses) uniform Poses { StepPose poses[kMaxStepPoses]; };
 layout(set = 0, binding = kBindVolumeParticles) readonly buffer Particles { VolumeParticle particles[]; };
 layout(set = 0, binding = kBindVolumeStates) buffer States { VolumeState states[]; };
-layout(set = 0, binding = kBindVolumeBrought) buffer Brought { vec4 brought[]; };
+layout(set = 0, binding = kBindVolumeBrought) buffer Brought { VolumeBrought brought[]; };
 layout(set = 0, binding = kBindVolumeCells) buffer Cells { uint cells[]; };
 layout(set = 0, binding = kBindVolumeParcels) buffer Parcels { VolumeParcel parcels[]; };
 layout(set = 0, binding = kBindVolumeNodes) buffer Nodes { vec4 nodes[]; };
@@ -46,6 +46,20 @@ layout(constant_id = kSpecForGpu) const bool kForGpu = false;
 /// on a CPU device each core has enough nodes, and waiting for others would cost time.
 const uint kNodeLanes = kForGpu ? 4 : 1;
 
+/// The box of cells, of VolumeControl. A number of a buffer that is one for all lanes is read at the top of main
+/// (readBox): behind a branch a driver may read it lane by lane.
+struct Box {
+  ivec3 low;
+  float cell, cellsPerMetre;
+  uvec3 size;
+  uint cellCount, filled;
+};
+Box box;
+void readBox() {
+  box = Box(ivec3(control.low[0], control.low[1], control.low[2]), control.cell, control.cellsPerMetre,
+            uvec3(control.size[0], control.size[1], control.size[2]), control.cellCount, control.filled);
+}
+
 /// Finds the volume particle of this invocation; false if there is none.
 bool findParticle(out uint i) {
   i = gl_GlobalInvocationID.x;
@@ -59,18 +73,32 @@ vec3 lastVelocityOf(uint particle) {
 }
 vec3 velocityOf(uint particle) { return kTexels ? vectorAt(solvedTexels, particle).xyz : solved[particle].xyz; }
 vec4 addedTo(uint particle) { return kTexels ? vectorAt(addedTexels, particle) : addedByVolume[particle]; }
-vec4 broughtBy(uint i) { return kTexels ? vectorAt(broughtTexels, i) : brought[i]; }
+VolumeBrought broughtBy(uint i) {
+  if (!kTexels) return brought[i];
+  return VolumeBrought(vectorAt(broughtTexels, 4 * i), vectorAt(broughtTexels, 4 * i + 1),
+                       vectorAt(broughtTexels, 4 * i + 2), vectorAt(broughtTexels, 4 * i + 3));
+}
 uvec4 locatedAt(uint i) { return kTexels ? recordAt(locatedTexels, i) : located[i]; }
 vec4 nodeAt(uint node) { return kTexels ? vectorAt(nodeTexels, node) : nodes[node]; }
 VolumeParticle volumeParticle(uint i) {
   if (!kTexels) return particles[i];
-  uvec4 b = recordAt(particleTexels, i);
-  return VolumeParticle(b.x, uintBitsToFloat(b.y), uintBitsToFloat(b.z), uintBitsToFloat(b.w));
+  uvec4 a = recordAt(particleTexels, 2 * i);
+  vec4 b = vectorAt(particleTexels, 2 * i + 1);
+  return VolumeParticle(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w);
 }
 VolumeParcel parcelAt(uint place) {
   if (!kTexels) return parcels[place];
-  vec4 b = vectorAt(parcelTexels, 2 * place + 1);
-  return VolumeParcel(vectorAt(parcelTexels, 2 * place), b.xyz, b.w);
+  return VolumeParcel(vectorAt(parcelTexels, 4 * place), vectorAt(parcelTexels, 4 * place + 1),
+                      vectorAt(parcelTexels, 4 * place + 2), vectorAt(parcelTexels, 4 * place + 3));
+}
+mat3 gradientOf(VolumeParcel parcel) {
+  return mat3(parcel.gradientX.xyz, parcel.gradientY.xyz, vec3(parcel.place.w, parcel.gradientX.w, parcel.gradientY.w));
+}
+/// All of a parcel but its rate.
+void setParcel(uint place, vec3 inCells, mat3 gradient) {
+  parcels[place].place = vec4(inCells, gradient[2].x);
+  parcels[place].gradientX = vec4(gradient[0], gradient[2].y);
+  parcels[place].gradientY = vec4(gradient[1], gradient[2].z);
 }
 VolumeState volumeState(uint i) {
   if (!kTexels) return states[i];
@@ -80,6 +108,23 @@ VolumeState volumeState(uint i) {
 vec3 displacementOf(uint i) { return kTexels ? vectorAt(stateTexels, 3 * i).xyz : states[i].displacement; }
 vec3 placeOf(uint i) { return kTexels ? vectorAt(stateTexels, 3 * i + 1).xyz : states[i].place; }
 float countedMassOf(uint i) { return kTexels ? vectorAt(stateTexels, 3 * i + 1).w : states[i].countedMass; }
+
+/// The mean place [m] and velocity [m/s] of what a volume particle represents, at the step's start and of the
+/// last iterate. `precise` as in placeInCells.
+struct VolumeMotion {
+  vec3 place, velocity;
+};
+VolumeMotion meanMotion(VolumeParticle self) {
+  precise vec3 x = vec3(0), v = vec3(0);
+  for (uint j = 0; j < self.present; ++j) {
+    x += positionOf(self.first + j);
+    v += velocityOf(self.first + j);
+  }
+  float count = max(float(self.present), 1.0);
+  x /= count;
+  v /= count;
+  return VolumeMotion(x, v);
+}
 
 // Between world axes and the head's frame at the step's start; pose 0 is the frame's start.
 vec3 inHeadFrame(vec3 x) { return rotate(conjugate(poses[parameters.step].rotation), x); }
@@ -93,6 +138,9 @@ uint cellStart(uint cell) { return numbers.cellCapacity + cell; }  // place of a
 uint cellSum(uint block) { return 2 * numbers.cellCapacity + block; }  // sum before a block of cells
 uint cellOf(uint i) { return cellSum(numbers.cellCapacity / kBucketBlock) + i; }
 uint cellRank(uint i) { return cellOf(numbers.count) + i; }  // rank in its cell, in arbitrary order
+uint parcelMass(uint place) { return cellRank(numbers.count) + place; }  // bits of a float, of unit unitsPerMass
+uint nodeBin(uint bin) { return parcelMass(numbers.count) + bin; }  // number of nodes in a bin, then where it begins
+uint nodeOrder(uint k) { return nodeBin(kNodeBins) + k; }  // the nodes with parcels around them, bin by bin
 
 /// A number of that buffer as it was when the dispatch began.
 uint cellNumber(uint at) { return kTexels ? recordAt(cellTexels, at / 4)[at % 4] : cells[at]; }
@@ -102,26 +150,33 @@ const float kFarthestCell = 1e6;  // from the head [cells]; farther places and N
 ivec3 cellAt(vec3 place, float cellsPerMetre) {
   return ivec3(clamp(floor(place * cellsPerMetre), vec3(-kFarthestCell), vec3(kFarthestCell)));
 }
+/// The box of cells that the step's particles reached before this invocation; it only spares atomics.
+struct Reach {
+  ivec3 least, greatest;
+};
+Reach readReach() {
+  return Reach(ivec3(control.least[0], control.least[1], control.least[2]),
+               ivec3(control.greatest[0], control.greatest[1], control.greatest[2]));
+}
 /// Extends the step's box of cells to the cell of a place.
-void reachTo(vec3 place) {
+void reachTo(vec3 place, Reach seen) {
   ivec3 cell = cellAt(place, 1.0 / numbers.cell);
   for (int axis = 0; axis < 3; ++axis) {
     // Most cells lie inside the box so far, and a read costs less than an atomic.
-    if (cell[axis] < control.least[axis]) atomicMin(control.least[axis], cell[axis]);
-    if (cell[axis] > control.greatest[axis]) atomicMax(control.greatest[axis], cell[axis]);
+    if (cell[axis] < seen.least[axis]) atomicMin(control.least[axis], cell[axis]);
+    if (cell[axis] > seen.greatest[axis]) atomicMax(control.greatest[axis], cell[axis]);
   }
 }
-uvec3 boxSize() { return uvec3(control.size[0], control.size[1], control.size[2]); }
 /// `precise` gives the same bits with and without texels: drivers fuse multiplication and subtraction in one
 /// case and not in the other.
 vec3 placeInCells(vec3 place) {
-  precise vec3 inCells = place * control.cellsPerMetre - vec3(control.low[0], control.low[1], control.low[2]);
+  precise vec3 inCells = place * box.cellsPerMetre - vec3(box.low);
   return inCells;
 }
 /// The cell of a place, which is given in units of cells. The last cell along each axis only provides nodes.
-uvec3 cellInBox(vec3 inCells) { return uvec3(clamp(floor(inCells), vec3(0), vec3(boxSize()) - 2.0)); }
+uvec3 cellInBox(vec3 inCells) { return uvec3(clamp(floor(inCells), vec3(0), vec3(box.size) - 2.0)); }
 uvec3 cornerOf(uvec3 cell, uint corner) { return cell + uvec3(corner & 1, corner >> 1 & 1, corner >> 2); }
-uint cellIndex(uvec3 cell) { return (cell.z * control.size[1] + cell.y) * control.size[0] + cell.x; }
+uint cellIndex(uvec3 cell) { return (cell.z * box.size.y + cell.y) * box.size.x + cell.x; }
 
 // If strands are divided among devices, the parts of the buffer of sums: for each node eight numbers from
 // gather, then for each node two from density, high and low (maths/split_sum.glsl).
@@ -131,7 +186,7 @@ uint densitySum(uint node) { return 8 * numbers.cellCapacity + 2 * node; }
 vec3 meanRate(vec4 sum) { return sum.w > 0.0 ? numbers.mostRate * sum.xyz / sum.w : vec3(0); }
 /// The density at a node [kg/m^3], from a sum in integer units.
 float densityFrom(float units) {
-  return units / numbers.unitsPerMass * control.cellsPerMetre * control.cellsPerMetre * control.cellsPerMetre;
+  return units / numbers.unitsPerMass * box.cellsPerMetre * box.cellsPerMetre * box.cellsPerMetre;
 }
 
 /// kappa: g is kappa times the mass m o.

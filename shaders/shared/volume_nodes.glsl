@@ -1,53 +1,44 @@
-// Sums over the parcels in the eight cells around a node of the volume's grid. Neighbouring cells along x are
-// consecutive, so the eight are four ranges; kNodeLanes invocations share a node, each with the same number
-// of ranges, and the first adds up the results: on a GPU a dispatch takes as long as the longest range, of a
-// crowded cell. Terms are integers, so that no sum depends on their order, and split (maths/split_sum.glsl).
-// The kernel that includes this defines what is summed (take).
+// Sums over the parcels around a node of the volume's grid (shared/volume_rows.glsl). kNodeLanes invocations share a
+// node, each with every so many-th parcel, and the first adds up the results: on a GPU a dispatch takes as long as the
+// longest sum, of a crowded cell. Terms are integers, so that no sum depends on their order, and split
+// (maths/split_sum.glsl). The kernel that includes this defines what is summed (take).
 #ifndef RINGLET_VOLUME_NODES
 #define RINGLET_VOLUME_NODES
 
 #include "maths/split_sum.glsl"
 #include "shared/at_once.glsl"
-#include "shared/volume_buffers.glsl"
+#include "shared/volume_rows.glsl"
 #include "shared/workgroup.glsl"
 
 // The sum so far.
 ivec4 high = ivec4(0);
 ivec4 low = ivec4(0);
 
-void take(VolumeParcel parcel, float weight);
+/// place: of the parcel among all; apart: from the node [cells].
+void take(VolumeParcel parcel, uint place, vec3 apart, float weight);
 
-// a / b; exact for a < 2^21, and faster than an integer division.
-uint quotient(uint a, uint b) { return uint((float(a) + 0.5) / float(b)); }
+/// Parcels that an invocation loads before it uses the first.
+const uint kTogether = kForGpu ? kAtOnce : 1;
 
-void sumRanges(uint node, uint first, uint end) {
-  uvec3 size = boxSize();
-  uint row = quotient(node, size.x);
-  uint z = quotient(row, size.y);
-  uvec3 at = uvec3(node - row * size.x, row - z * size.y, z);
-  uint wanted = end - first;  // turns that the loops should make; `made` counts those they made
-  uint made = 0;
-  uint turn = first;
-  do {
-    uint y = at.y - (turn & 1);
-    uint z = at.z - (turn >> 1);
-    bool isIn = y < size.y && z < size.z;  // coordinates below 0 wrap to large numbers
-    uint last = isIn ? (z * size.y + y) * size.x + at.x : 0;
-    uint place = isIn ? startOf(last - min(at.x, 1)) : 0;
-    uint end = isIn ? startOf(last + 1) : 0;
-    wanted += (end - place + kAtOnce - 1) / kAtOnce;
-    if (place < end) do {
-      VolumeParcel some[kAtOnce];
-      for (uint j = 0; j < kAtOnce; ++j) some[j] = parcelAt(min(place + j, end - 1));
-      for (uint j = 0; j < kAtOnce; ++j)
-        take(some[j], place + j < end ? nodeWeight(some[j].place - vec3(at)) : 0.0);
-      ++made;
-      place += kAtOnce;
-    } while (place < end);
-    carry(high, low);
-    ++made;
-  } while (++turn < end);
-  if (made != wanted) halt.isHalted = kHaltedByTurns;
+void sumParcels(uint node, uint lane) {
+  uvec3 at = placeOfNode(node);
+  Rows rows = rowsAround(at);
+  uint all = rows.end.w;
+  uint turn = 0;
+  uint t = lane;
+  for (; t < all; t += kTogether * kNodeLanes) {
+    uint places[kAtOnce];
+    VolumeParcel some[kAtOnce];
+    for (uint j = 0; j < kTogether; ++j) places[j] = placeIn(rows, min(t + j * kNodeLanes, all - 1));
+    for (uint j = 0; j < kTogether; ++j) some[j] = parcelAt(places[j]);
+    for (uint j = 0; j < kTogether; ++j) {
+      vec3 apart = some[j].place.xyz - vec3(at);
+      take(some[j], places[j], apart, t + j * kNodeLanes < all ? nodeWeight(apart) : 0.0);
+    }
+    if ((++turn & 0x3fff) == 0) carry(high, low);
+  }
+  carry(high, low);
+  if (t < all) halt.isHalted = kHaltedByTurns;  // the driver ended the loop early
 }
 
 shared ivec4 sharedHigh[kNodeLanes > 1 ? kMostInvocations : 1];
@@ -68,14 +59,15 @@ void addLanes(uint lane, uint nodes) {
 }
 
 /// Sets `high` and `low` to the sums of this invocation's node; false if it has none to write. Call it once,
-/// with all invocations.
+/// with all invocations, after readBox. If strands are divided among devices, nodes have no order: one without parcels
+/// here has sums too.
 bool sumAround(out uint node) {
   uint nodes = gl_WorkGroupSize.x / kNodeLanes;
   uint lane = gl_LocalInvocationID.x / nodes;
   node = gl_WorkGroupID.x * nodes + gl_LocalInvocationID.x % nodes;
-  bool isNode = halt.isHalted == 0 && node < control.cellCount;
-  uint each = 4 / kNodeLanes;
-  if (isNode) sumRanges(node, lane * each, (lane + 1) * each);
+  bool isNode = halt.isHalted == 0 && node < (kDivided ? box.cellCount : box.filled);
+  if (isNode && !kDivided) node = cellNumber(nodeOrder(node));
+  if (isNode) sumParcels(node, lane);
   if (kNodeLanes > 1) addLanes(lane, nodes);
   return isNode && lane == 0;
 }

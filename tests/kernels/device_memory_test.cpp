@@ -90,7 +90,7 @@ TEST_F(Memory, OfContacts) {
             contacts * (16 * 16 + 44 + 40) + (contacts / 4 + 1) * 4 * 64);
 }
 
-// A particle of the volume: 140; a cell 24.
+// A particle of the volume: 236; a cell 28.
 TEST_F(Memory, OfAVolume) {
   Settings settings;
   settings.contacts.on = true;
@@ -100,8 +100,8 @@ TEST_F(Memory, OfAVolume) {
   const DeviceMemory memory = Diagnostics(*simulation).memory();
   EXPECT_EQ(memory.particles, (ofParticle() + 32) * particleCount_);
   EXPECT_EQ(memory.contacts + memory.contactLists, 0u);
-  EXPECT_GT(memory.volume, 24u << 10);  // a block of cells at the least
-  EXPECT_LT(memory.volume, 140 * particleCount_ + (24u << 21) + (64u << 10));
+  EXPECT_GT(memory.volume, 28u << 10);  // a block of cells at the least
+  EXPECT_LT(memory.volume, 240 * particleCount_ + (28u << 21) + (64u << 10));
 }
 
 // Contacts between pairs beside it: two buckets of 16.

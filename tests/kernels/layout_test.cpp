@@ -87,7 +87,7 @@ TEST(Layout, TexelRecordsAreWholeTexels) {
        {"ParticleRest",  "StrandRest",   "RootPose",       "BodyRest",       "BodyPose",    "StepAir",
         "StepField",     "WindWave",     "ContactRest",    "ContactPair",    "ContactLife", "ContactForce",
         "ContactSystem", "ContactPlace", "ContactHistory", "VolumeParticle", "VolumeState", "VolumeParcel",
-        "CoreRow",       "FollowGuide",  "FollowHair",     "FollowBlend"})
+        "VolumeBrought", "CoreRow",      "FollowGuide",    "FollowHair",     "FollowBlend"})
     EXPECT_EQ(cppStruct(name)->size % sizeof(layout::vec4), 0u) << name;
 }
 

@@ -163,10 +163,11 @@ void restrictTo(RestVolume& volume, const RestHalo& halo, const Places& places) 
   const RestVolume whole = std::exchange(volume, {});
   volume.cell = whole.cell, volume.largestMass = whole.largestMass, volume.cells = whole.cells;
   volume.longestStrand = whole.longestStrand;
-  for (std::size_t i = 0; i < whole.particles.size(); ++i) {
+  for (std::size_t i = 0; i < whole.firsts.size(); ++i) {
     const std::uint32_t s = whole.strands[i];
     if (places.strand(s) >= end) continue;
-    volume.particles.push_back(places.particle(s, whole.particles[i]));
+    volume.firsts.push_back(places.particle(s, whole.firsts[i]));
+    volume.counts.push_back(whole.counts[i]);
     volume.strands.push_back(places.strand(s));
     volume.masses.push_back(whole.masses[i]);
     volume.densities.push_back(whole.densities[i]);

@@ -19,7 +19,8 @@ double arcLength(const RestState& rest, const layout::StrandRest& strand) {
   return arc;
 }
 
-// Takes one particle in this many along a strand, so that they are at most kVolumeSpacing cells apart.
+// So many particles along a strand are represented by one, so that these are at most kVolumeSpacing cells
+// apart.
 std::uint32_t volumeStride(const RestState& rest, const layout::StrandRest& strand, double cell) {
   const double edge = arcLength(rest, strand) / std::max(1.0, strand.particleCount - 1.0);
   const double most = std::max(1.0, strand.particleCount / 2.0);
@@ -43,11 +44,17 @@ std::uint64_t reachableCells(const RestState& rest, const VolumeStrands& volume,
   return cells < 1e18 ? static_cast<std::uint64_t>(cells) : std::uint64_t{1} << 60;
 }
 
+Vec3f meanPoint(const RestState& rest, std::uint32_t first, std::uint32_t count) {
+  Vec3d sum{};
+  for (std::uint32_t i = first; i < first + count; ++i) sum = sum + static_cast<Vec3d>(rest.points[i]);
+  return static_cast<Vec3f>(sum / static_cast<double>(count));
+}
+
 // Sets the densities, strand by strand. One thread adds masses in device order, since the order of a sum
 // changes its bits.
 void setDensities(const RestState& rest, RestVolume& volume, unsigned threadCount) {
-  const std::size_t count = volume.particles.size();
-  const auto placeOf = [&](std::size_t k) { return rest.points[volume.particles[k]]; };
+  const std::size_t count = volume.firsts.size();
+  const auto placeOf = [&](std::size_t k) { return meanPoint(rest, volume.firsts[k], volume.counts[k]); };
   DensityGrid all(volume.cell);
   for (std::size_t k = 0; k < count; ++k) all.add(placeOf(k), volume.masses[k]);
   std::vector<std::size_t> firsts;  // index of each strand's first particle, and the end
@@ -83,12 +90,17 @@ RestVolume buildRestVolume(const RestState& rest, const RestContacts& contacts, 
     const layout::StrandRest& strand = rest.strands[s];
     volume.longestStrand = std::max(volume.longestStrand, arcLength(rest, strand));
     const std::uint32_t stride = volumeStride(rest, strand, volume.cell);
-    for (std::uint32_t k = rest.strandInGroom[s] % stride; k < strand.particleCount; k += stride) {
-      const std::uint32_t i = strand.firstParticle + k;
-      const float mass = static_cast<float>(stride) * rest.particles[i].mass * strand.massUnit;
-      volume.particles.push_back(i);
+    const std::uint32_t phase = rest.strandInGroom[s] % stride;
+    for (std::uint32_t begin = 0; begin < strand.particleCount;) {
+      const std::uint32_t end =
+          std::min(begin == 0 && phase > 0 ? phase : begin + stride, strand.particleCount);
+      float mass = 0;
+      for (std::uint32_t k = begin; k < end; ++k) mass += rest.particles[strand.firstParticle + k].mass;
+      volume.firsts.push_back(strand.firstParticle + begin);
+      volume.counts.push_back(end - begin);
       volume.strands.push_back(s);
-      volume.masses.push_back(mass);
+      volume.masses.push_back(mass * strand.massUnit);
+      begin = end;
     }
   }
   setDensities(rest, volume, threadCount);

@@ -60,12 +60,15 @@ inline constexpr double kVolumeSortSeconds = 1.0 / 48;
 inline std::uint32_t volumeSortSteps(double stepSeconds) {
   return static_cast<std::uint32_t>(std::max(1.0, std::round(kVolumeSortSeconds / stepSeconds)));
 }
-/// Largest distance along a strand between particles that take part, in cells; each represents the particles
-/// around it.
+/// Largest distance along a strand between the volume's particles, in cells; each represents the particles of
+/// the strand around it.
 inline constexpr double kVolumeSpacing = 1.6;
-/// Warm start of hair as a volume (equations/volume.glsl). With 1 hair at 4 steps a frame does not come to
-/// rest; with less 8 and 16 steps are farther apart.
-inline constexpr double kVolumeWarmth = 0.9;
+/// Of hair as a volume (equations/volume.glsl): the resistance that the common motion of a neighbourhood
+/// meets [1/s]; the largest warm start, with which hair still comes to rest at 4 steps a frame; the share of
+/// the gradient of the hair's motion that a particle keeps, and the rim of a cell in which that fades
+/// [cells].
+inline constexpr double kVolumeResponse = 440, kVolumeMostWarmth = 0.9;
+inline constexpr double kVolumeGradient = 0.85, kVolumeRim = 0.1;
 /// Speed beside the head up to which the volume's sums have room for hair [m/s].
 inline constexpr double kVolumeMostSpeed = 32;
 /// And stretch of a strand, where Settings::maxStretch allows more.
@@ -138,15 +141,26 @@ struct ContactSettings {
   std::optional<double> volumeCell;  // cell size [m], 1e-5 to 10; unset: kVolumeCellRadii radii, or more
                                      // where particles are farther apart
   double volumeDrag = 600;           // towards the velocity of the hair around [1/s], 0 to 1e5
-  double volumeStiffness = 7e4;      // towards its displacement [1/s^2], 0 to 1e9
+  double volumeStiffness = 1e6;      // towards its displacement [1/s^2], 0 to 1e9
   double volumeMemorySeconds = 0.3;  // time in which a displacement is forgotten [s], 0.001 to 1000
+
+  /// kappa [1] and beta [1] of shaders/equations/volume.glsl.
+  double volumeGain(double stepSeconds) const {
+    return stepSeconds * (volumeDrag + stepSeconds * volumeStiffness);
+  }
+  double volumeWarmth(double stepSeconds) const {
+    const double kappa = volumeGain(stepSeconds);
+    if (kappa <= 0) return 0;
+    return std::clamp(1 - 1 / (kVolumeResponse * stepSeconds) + 1 / kappa,
+                      -kVolumeMostWarmth * (2 + kappa) / kappa, kVolumeMostWarmth);
+  }
 
   /// Largest component of a = kappa w + k T s (shaders/equations/volume.glsl) that the volume's sums have
   /// room for [m/s]: of w up to kVolumeMostSpeed together with s up to twice the length of the longest
   /// strand, stretched [m], which is the farthest that a tip gets from where it was. A power of two, at
   /// least 1. The sums resolve 2^-30 of it: by default below 1e-6 m/s of w and 1e-8 m of s.
   double volumeMostRate(double stepSeconds, double longestStrand) const {
-    const double kT = volumeStiffness * stepSeconds, kappa = stepSeconds * (volumeDrag + kT);
+    const double kT = volumeStiffness * stepSeconds, kappa = volumeGain(stepSeconds);
     return std::exp2(std::ceil(std::log2(std::max(1.0, kappa * kVolumeMostSpeed + kT * 2 * longestStrand))));
   }
 

@@ -8,11 +8,25 @@
 
 namespace ringlet {
 
-/// In the order of a step. Count to density run only in steps that sort particles into cells; bring only in
+/// In the order of a step. Box to density run only in steps that sort particles into cells; bring only in
 /// iterations after the first; gather to spread in every iteration; mean only if strands are divided among
-/// devices.
-enum class VolumeKernel { begin, box, count, scan, start, place, density, bring, gather, mean, spread };
-inline constexpr std::size_t kVolumeKernelCount = 11;
+/// devices, rank and order only if they are not.
+enum class VolumeKernel {
+  begin,
+  box,
+  count,
+  scan,
+  start,
+  place,
+  rank,
+  order,
+  density,
+  bring,
+  gather,
+  mean,
+  spread
+};
+inline constexpr std::size_t kVolumeKernelCount = 13;
 
 /// Invocations per workgroup.
 inline constexpr std::uint32_t kVolumeGroupSize = 64;

@@ -22,7 +22,8 @@ namespace {
 constexpr std::uint64_t kMostCells = std::uint64_t{1} << 21;
 
 constexpr std::uint64_t kPerCellBlock = offsetof(layout::VolumeControl, indirectBlocks),
-                        kPerNode = offsetof(layout::VolumeControl, indirectNodes);
+                        kPerNode = offsetof(layout::VolumeControl, indirectNodes),
+                        kPerFilled = offsetof(layout::VolumeControl, indirectFilled);
 
 std::uint32_t cellCapacity(std::uint64_t wanted) {
   const std::uint64_t blocks = std::min(wanted + wanted / 500, kMostCells) / layout::kBucketBlock + 1;
@@ -32,14 +33,18 @@ std::uint32_t cellCapacity(std::uint64_t wanted) {
 std::vector<layout::VolumeParticle> volumeParticles(const RestState& rest, const Settings& settings,
                                                     const RestVolume& volume) {
   std::vector<layout::VolumeParticle> particles;
-  for (std::size_t i = 0; i < volume.particles.size(); ++i) {
+  for (std::size_t i = 0; i < volume.firsts.size(); ++i) {
     const layout::StrandRest& strand = rest.strands[volume.strands[i]];
-    const bool isPinned =
-        volume.particles[i] - strand.firstParticle < static_cast<std::uint32_t>(settings.rootCount);
-    particles.push_back({.particle = volume.particles[i],
+    const std::uint32_t count = volume.counts[i];
+    const std::uint32_t pinnedEnd = strand.firstParticle + static_cast<std::uint32_t>(settings.rootCount);
+    particles.push_back({.first = volume.firsts[i],
+                         .count = count,
+                         .present = count,
+                         .pinned = std::min(std::max(pinnedEnd, volume.firsts[i]) - volume.firsts[i], count),
                          .mass = volume.masses[i],
                          .ownDensity = volume.ownDensities[i],
-                         .inverseMassUnit = isPinned ? 0.0f : 1 / strand.massUnit});
+                         .inverseMassUnit = 1 / strand.massUnit,
+                         .unused = 0});
   }
   return particles;
 }
@@ -68,7 +73,8 @@ std::uint32_t groupsOf(std::uint64_t particles) {
 
 std::uint64_t VolumeStage::cellWords() const {
   const std::uint64_t capacity = numbers_.cellCapacity;
-  return 2 * capacity + capacity / layout::kBucketBlock + 2 * std::uint64_t{numbers_.count};
+  return 3 * capacity + capacity / layout::kBucketBlock + 3 * std::uint64_t{numbers_.count} +
+         layout::kNodeBins;
 }
 
 std::uint64_t VolumeStage::sumBytes() const {
@@ -86,12 +92,13 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
   self.groom_ = &hair.groom;
   self.poses_ = &hair.poses;
   self.densities_ = volume.densities;
-  const std::uint64_t count = volume.particles.size();
+  const std::uint64_t count = volume.firsts.size();
   const std::uint32_t capacity = cellCapacity(volume.cells);
   self.numbers_.count = static_cast<std::uint32_t>(count);
   self.numbers_.cellCapacity = capacity;
   self.numbers_.cell = static_cast<float>(volume.cell);
-  self.numbers_.warmth = static_cast<float>(kVolumeWarmth);
+  self.numbers_.gradient = static_cast<float>(kVolumeGradient);
+  self.numbers_.rim = static_cast<float>(kVolumeRim);
   if (groupsOf(count) > device.properties().maxGroupCount) {
     return Error{fmt::format(
         "{} particles that meet as a volume are more than the {} this device takes at once; switch contacts "
@@ -99,7 +106,8 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
         count, std::uint64_t{device.properties().maxGroupCount} * kVolumeGroupSize)};
   }
   const std::uint64_t perParticle = sizeof(layout::VolumeParticle) + sizeof(layout::VolumeState) +
-                                    2 * sizeof(layout::vec4) + sizeof(layout::VolumeParcel);
+                                    sizeof(layout::VolumeBrought) + sizeof(layout::VolumeParcel) +
+                                    sizeof(layout::vec4);
   const std::uint64_t needed = count * perParticle + self.cellWords() * sizeof(std::uint32_t) +
                                capacity * sizeof(layout::vec4) + self.sumBytes();
   if (Status status = checkMemory(fmt::format("{} particles as a volume", count), needed,
@@ -142,7 +150,7 @@ Status VolumeStage::makeBuffers(gpu::Device& device, const RestState& rest, cons
   if (!particles) return particles.error();
   auto states = createFilled(device, unknownStates(volume.densities), "volume states");
   if (!states) return states.error();
-  auto brought = createZero(device, count * sizeof(layout::vec4), "volume brought");
+  auto brought = createZero(device, count * sizeof(layout::VolumeBrought), "volume brought");
   if (!brought) return brought.error();
   auto sums = gpu::Buffer::create(device, sumBytes(), gpu::BufferKind::stream, "volume sums");
   if (!sums) return sums.error();
@@ -211,8 +219,19 @@ gpu::BufferTable VolumeStage::bufferTable() const {
 Status VolumeStage::release(std::span<const std::uint32_t> particles) {
   auto all = downloadAll<layout::VolumeParticle>(buffers_->particles, numbers_.count);
   if (!all) return all.error();
-  for (layout::VolumeParticle& each : *all)
-    if (std::ranges::binary_search(particles, each.particle)) each.mass = 0;
+  auto states = downloadAll<layout::VolumeState>(buffers_->states, numbers_.count);
+  if (!states) return states.error();
+  for (std::size_t i = 0; i < all->size(); ++i) {
+    layout::VolumeParticle& each = (*all)[i];
+    const auto fallen = std::ranges::lower_bound(particles, each.first);
+    const auto past = std::lower_bound(fallen, particles.end(), each.first + each.present);
+    if (fallen == past) continue;
+    const std::uint32_t present = *fallen - each.first;  // what falls is all that is left beyond a place
+    each.mass *= static_cast<float>(present) / static_cast<float>(each.present);
+    each.present = present;
+    (*states)[i].isKnown = 0;  // its mean is elsewhere now
+  }
+  if (Status status = buffers_->states.upload(std::as_bytes(std::span(*states))); !status) return status;
   return buffers_->particles.upload(std::as_bytes(std::span(*all)));
 }
 
@@ -222,10 +241,11 @@ Status VolumeStage::setSettings(const Settings& settings) {
   numbers_.seconds = static_cast<float>(T);
   numbers_.drag = static_cast<float>(settings.contacts.volumeDrag);
   numbers_.stiffness = static_cast<float>(settings.contacts.volumeStiffness);
+  numbers_.warmth = static_cast<float>(settings.contacts.volumeWarmth(T));
   numbers_.kept = static_cast<float>(std::exp(-T / settings.contacts.volumeMemorySeconds));
   // A term of the sums is kVolumeUnits at most. Without drag and stiffness there are no terms.
   constexpr auto kUnits = static_cast<double>(layout::kVolumeUnits);
-  const double gain = T * (settings.contacts.volumeDrag + T * settings.contacts.volumeStiffness);
+  const double gain = settings.contacts.volumeGain(T);
   const double longest = std::min(settings.maxStretch, kVolumeMostStretch) * longestStrand_;
   numbers_.mostRate = static_cast<float>(range_ * settings.contacts.volumeMostRate(T, longest));
   numbers_.unitsPerMass = static_cast<float>(kUnits / largestMass_);
@@ -246,6 +266,8 @@ void VolumeStage::dispatchIndirect(gpu::CommandList& list, VolumeKernel kernel, 
   const auto at = static_cast<std::size_t>(kernel);
   list.dispatchIndirect(*kernels_[at], bindings_[at], parameters(step), buffers_->control, offset);
 }
+
+std::uint64_t VolumeStage::perSum() const { return isDivided_ ? kPerNode : kPerFilled; }
 
 void VolumeStage::recordNothing(gpu::CommandList& list) const {
   for (const std::size_t k : newKernels_) list.dispatchNothing(*kernels_[k], bindings_[k]);
@@ -276,13 +298,19 @@ void VolumeStage::recordSort(gpu::CommandList& list, SubmissionPace& pace, std::
   list.barrier();
   dispatchParticles(list, place, step);
   list.barrier();
-  dispatchIndirect(list, density, step, kPerNode);
+  if (!isDivided_) {
+    for (const VolumeKernel kernel : {rank, order}) {
+      dispatchIndirect(list, kernel, step, kPerNode);
+      list.barrier();
+    }
+  }
+  dispatchIndirect(list, density, step, perSum());
   list.endStage();
 }
 
 void VolumeStage::recordSums(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const {
   pace.beginStage(list, "volume_gather");
-  dispatchIndirect(list, VolumeKernel::gather, step, kPerNode);
+  dispatchIndirect(list, VolumeKernel::gather, step, perSum());
   list.endStage();
 }
 
@@ -357,8 +385,8 @@ Status VolumeStage::archive(Archive& archive) {
   if (archive.isReading()) {
     if (Status status = b.control.upload(std::as_bytes(std::span(*control))); !status) return status;
   }
-  std::vector<gpu::Buffer*> kept{&b.states};
-  if (sorts_.isBetweenSorts()) kept.insert(kept.end(), {&b.cells, &b.parcels, &b.located, &b.nodes});
+  std::vector<gpu::Buffer*> kept{&b.states, &b.parcels, &b.located};
+  if (sorts_.isBetweenSorts()) kept.insert(kept.end(), {&b.cells, &b.nodes});
   for (gpu::Buffer* buffer : kept) {
     if (Status status = archiveBuffer(archive, *buffer); !status) return status;
   }

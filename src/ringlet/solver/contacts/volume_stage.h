@@ -120,6 +120,8 @@ class VolumeStage {
   void dispatchParticles(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step) const;
   void dispatchIndirect(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step,
                         std::uint64_t offset) const;
+  // Where the control block has the workgroups of sums over parcels.
+  std::uint64_t perSum() const;
   layout::VolumeControl& hostControl() const;
 
   std::vector<std::shared_ptr<const gpu::Kernel>> kernels_;  // by VolumeKernel
