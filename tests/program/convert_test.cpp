@@ -327,9 +327,9 @@ TEST_F(Convert, HairsFollowTheStrands) {
       << "frames know nothing of others";
   for (const auto& [option, usual, other] :
        {std::tuple("--frizz", "1", "3"), {"--clump", "0.25", "0.9"}, {"--blend", "0", "1"}}) {
-    const auto with = [&](const char* value) {
-      convert({"turned/hair.rgc", "look.obj", "--frame", "6", "--hairs", "100", "--groom", "h.obj", option,
-               value});
+    const auto with = [&, dial = option](const char* value) {
+      convert(
+          {"turned/hair.rgc", "look.obj", "--frame", "6", "--hairs", "100", "--groom", "h.obj", dial, value});
       return readText(folder_ / "look.obj");
     };
     EXPECT_EQ(with(usual), readText(folder_ / "six.obj")) << option;
