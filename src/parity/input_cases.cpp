@@ -129,6 +129,7 @@ Settings volumeSettings() {
 Settings otherVolume() {
   Settings settings = volumeSettings();
   settings.framesPerSecond = 30;
+  settings.rootCount = 3;
   settings.contacts.volumeCell = 0.02;
   settings.contacts.volumeDrag = 100;
   settings.contacts.volumeStiffness = 5e3;
