@@ -15,7 +15,7 @@ using Node = std::array<int, 3>;
 
 // tell(node, apart) for the eight nodes about a place; apart: of the place from the node [cells].
 template <class Tell>
-void eachNodeApart(const Vector3<double>& place, double cell, Tell&& tell) {
+void eachNode(const Vector3<double>& place, double cell, Tell&& tell) {
   const Vector3<double> x = place / cell;
   const Node low{static_cast<int>(std::floor(x[0])), static_cast<int>(std::floor(x[1])),
                  static_cast<int>(std::floor(x[2]))};
@@ -28,27 +28,23 @@ void eachNodeApart(const Vector3<double>& place, double cell, Tell&& tell) {
     }
   }
 }
-// tell(node, weight) likewise.
-template <class Tell>
-void eachNode(const Vector3<double>& place, double cell, Tell&& tell) {
-  eachNodeApart(place, cell,
-                [&](const Node& node, const Vector3<double>& apart) { tell(node, nodeWeight(apart)); });
-}
 
 // Masses at nodes, of particles `begin` to `end` at their places.
 std::map<Node, double> nodeMasses(const Volume& volume, std::size_t begin, std::size_t end) {
   std::map<Node, double> masses;
   for (std::size_t i = begin; i < end; ++i) {
     const VolumeParticle& p = volume.particles[i];
-    eachNode(p.place, volume.cell, [&](const Node& node, double weight) { masses[node] += weight * p.mass; });
+    eachNode(p.place, volume.cell, [&](const Node& node, const Vector3<double>& apart) {
+      masses[node] += nodeWeight(apart) * p.mass;
+    });
   }
   return masses;
 }
 
 double densityAt(const std::map<Node, double>& masses, const Vector3<double>& place, double cell) {
   double sum = 0;
-  eachNode(place, cell, [&](const Node& node, double weight) {
-    if (const auto it = masses.find(node); it != masses.end()) sum += weight * it->second;
+  eachNode(place, cell, [&](const Node& node, const Vector3<double>& apart) {
+    if (const auto it = masses.find(node); it != masses.end()) sum += nodeWeight(apart) * it->second;
   });
   return sum / (cell * cell * cell);
 }
@@ -73,6 +69,7 @@ Vector3<double> VolumeParticle::mean(const Field<double>& values) const {
 }
 
 void Volume::release(std::uint32_t begin, std::uint32_t end) {
+  untilSort = 0;
   for (VolumeParticle& p : particles) {
     if (p.first + p.present <= begin || p.first >= end) continue;
     const std::uint32_t left = std::max(begin, p.first) - p.first;
@@ -179,7 +176,7 @@ std::map<Node, NodeSums> gatherNodes(const ContactSettings& settings, const Volu
     const Vector3<double> w = frame.now.conjugate() * (p.velocity - frame.carried(p.mean(positions)));
     const Vector3<double> a = volumeRate(settings, T, w, p.memory);
     const double g = p.mass * p.share * kappa;
-    eachNodeApart(p.gridPlace, volume.cell, [&](const Node& node, const Vector3<double>& apart) {
+    eachNode(p.gridPlace, volume.cell, [&](const Node& node, const Vector3<double>& apart) {
       NodeSums& sums = nodes[node];
       const double weight = nodeWeight(apart);
       sums.rate += weight * g * (a - p.gradient * apart * volume.cell);
@@ -202,7 +199,7 @@ VolumeSystem volumeMeans(const ContactSettings& settings, const VolumeFrame& fra
     Vector3<double> mean = Vector3<double>::Zero();
     Matrix3<double> gradient = Matrix3<double>::Zero();
     double mass = 0;
-    eachNodeApart(p.gridPlace, volume.cell, [&](const Node& node, const Vector3<double>& apart) {
+    eachNode(p.gridPlace, volume.cell, [&](const Node& node, const Vector3<double>& apart) {
       const NodeSums& sums = nodes[node];
       mean += nodeWeight(apart) * sums.mean();
       gradient += sums.mean() * nodeGradient(apart).transpose() / volume.cell;

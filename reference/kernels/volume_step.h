@@ -58,7 +58,7 @@ struct Volume {
   bool isEmpty() const { return particles.empty(); }
   void forget();
   /// The particles [begin, end) are of it no more: they have fallen. These are all that is left of a strand
-  /// beyond a place.
+  /// beyond a place. The next step sorts.
   void release(std::uint32_t begin, std::uint32_t end);
   void archive(Archive& archive);
 };

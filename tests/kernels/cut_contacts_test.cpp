@@ -38,6 +38,7 @@ TEST_F(CutContacts, FramesAgreeWithDouble) {
     ContactMethod method = ContactMethod::explicitPairs;
     KernelChoice kernel{};
     ContactTaper taper = ContactTaper::distance;
+    int steps = 8;  // of 7 the frames that are followed by cuts end between two sorts of the volume
   };
   const Groom swatch = denseSwatch(32);
   const KernelChoice serial{Form::serial}, memory{Form::memory, 9, 4};
@@ -47,11 +48,13 @@ TEST_F(CutContacts, FramesAgreeWithDouble) {
                         {"pairs, time", swatch, ContactMethod::explicitPairs, {}, ContactTaper::time},
                         {"volume", swatch, ContactMethod::volume},
                         {"volume, serial", swatch, ContactMethod::volume, serial},
+                        {"volume, 7 steps", swatch, ContactMethod::volume, {}, ContactTaper::distance, 7},
                         {"both", bunchAndStrands(), ContactMethod::automatic}}) {
     SCOPED_TRACE(c.name);
     Settings settings = meetingSettings();
     settings.contacts.method = c.method;
     settings.contacts.taper = c.taper;
+    settings.stepsPerFrame = c.steps;
     int frame = 0;
     std::uint64_t met = 0;
     const auto worst = shakenError(device(), c.groom, settings, c.kernel, 5,

@@ -217,6 +217,7 @@ gpu::BufferTable VolumeStage::bufferTable() const {
 }
 
 Status VolumeStage::release(std::span<const std::uint32_t> particles) {
+  sorts_.forget();  // so that what is not known any more is left out of the parcels, too
   auto all = downloadAll<layout::VolumeParticle>(buffers_->particles, numbers_.count);
   if (!all) return all.error();
   auto states = downloadAll<layout::VolumeState>(buffers_->states, numbers_.count);

@@ -87,7 +87,8 @@ class VolumeStage {
   std::span<std::uint32_t> sums();
   std::span<std::uint32_t> densities();
 
-  /// Removes fallen particles from the volume; device indices, ascending.
+  /// Removes fallen particles from the volume; device indices, ascending: of each strand all that is left of
+  /// it beyond a place. The next step sorts.
   Status release(std::span<const std::uint32_t> particles);
   /// Changes the live settings, while no kernel runs. Invalidates earlier recordings.
   Status setSettings(const Settings& settings);
