@@ -13,15 +13,14 @@
 #include <vector>
 
 #include "embedded_modules.h"
+#include "tests/support/spirv_names.h"
 
 namespace ringlet::test::first_reads_test {
 namespace {
 
-using Id = std::uint32_t;
-
 // A place in the code: a function and the number of the block in it.
 struct Place {
-  Id function = 0;
+  std::uint32_t function = 0;
   int block = 0;
 };
 struct Read {
@@ -29,11 +28,10 @@ struct Read {
   std::string what;  // buffer.member
 };
 
-class Code {
+class Code : SpirvNames {
  public:
   explicit Code(std::span<const std::uint32_t> words) {
-    for (std::size_t at = 5; at < words.size(); at += words[at] >> 16)
-      readInstruction(words.subspan(at, words[at] >> 16));
+    eachSpirvInstruction(words, [this](std::span<const std::uint32_t> word) { readInstruction(word); });
   }
 
   // Reads behind a branch, as "function: buffer.member".
@@ -49,34 +47,12 @@ class Code {
 
  private:
   void readInstruction(std::span<const std::uint32_t> word) {
-    enum : std::uint32_t { kName = 5, kMemberName = 6, kEntryPoint = 15, kConstant = 43 };
-    enum : std::uint32_t {
-      kTypeStruct = 30,
-      kTypePointer = 32,
-      kFunction = 54,
-      kFunctionCall = 57,
-      kVariable = 59,
-      kLoad = 61
-    };
+    SpirvNames::readInstruction(word);
+    enum : std::uint32_t { kEntryPoint = 15, kFunction = 54, kFunctionCall = 57, kVariable = 59, kLoad = 61 };
     enum : std::uint32_t { kAccessChain = 65, kLabel = 248, kStorageBuffer = 12 };
     switch (word[0] & 0xffff) {
-      case kName:
-        names_[word[1]] = reinterpret_cast<const char*>(&word[2]);
-        break;
-      case kMemberName:
-        memberNames_[word[1]][word[2]] = reinterpret_cast<const char*>(&word[3]);
-        break;
       case kEntryPoint:
         main_ = word[2];
-        break;
-      case kConstant:
-        constants_[word[2]] = word[3];
-        break;
-      case kTypeStruct:
-        structTypes_[word[1]].assign(word.begin() + 2, word.end());
-        break;
-      case kTypePointer:
-        pointees_[word[1]] = word[3];
         break;
       case kVariable:
         if (word[3] == kStorageBuffer) buffers_[word[2]] = pointees_.at(word[1]);
@@ -131,11 +107,7 @@ class Code {
 
   Id main_ = 0;
   Place here_;
-  std::map<Id, std::string> names_;
-  std::map<Id, std::map<std::uint32_t, std::string>> memberNames_;
-  std::map<Id, std::uint32_t> constants_;
-  std::map<Id, Id> pointees_, buffers_;  // of buffers: the type of the block
-  std::map<Id, std::vector<Id>> structTypes_;
+  std::map<Id, Id> buffers_;          // the type of the block
   std::map<Id, std::string> chains_;  // to numbers that are one for all lanes
   std::map<Id, std::vector<Place>> calls_;
   std::vector<Read> reads_;

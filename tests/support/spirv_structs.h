@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/spirv_names.h"
+
 namespace ringlet::test {
 
 struct SpirvMember {
@@ -33,11 +35,10 @@ struct SpirvBlock {
   std::vector<SpirvMember> members;  // of a record, those that the code reads or writes
 };
 
-class SpirvModule {
+class SpirvModule : SpirvNames {
  public:
   explicit SpirvModule(std::span<const std::uint32_t> words) {
-    for (std::size_t at = 5; at < words.size(); at += words[at] >> 16)
-      readInstruction(words.subspan(at, words[at] >> 16));
+    eachSpirvInstruction(words, [this](std::span<const std::uint32_t> word) { readInstruction(word); });
   }
 
   /// Blocks, which only wrap what a buffer holds, are left out, and so are structs of local variables.
@@ -94,22 +95,15 @@ class SpirvModule {
   }
 
  private:
-  using Id = std::uint32_t;
-
   void readInstruction(std::span<const std::uint32_t> word) {
-    enum : std::uint32_t { kName = 5, kMemberName = 6, kTypeInt = 21, kTypeFloat = 22, kTypeVector = 23 };
-    enum : std::uint32_t { kTypeArray = 28, kTypeRuntimeArray = 29, kTypeStruct = 30, kConstant = 43 };
+    SpirvNames::readInstruction(word);
+    enum : std::uint32_t { kTypeInt = 21, kTypeFloat = 22, kTypeVector = 23 };
+    enum : std::uint32_t { kTypeArray = 28, kTypeRuntimeArray = 29 };
     enum : std::uint32_t { kLoad = 61, kAccessChain = 65, kInBoundsAccessChain = 66 };
-    enum : std::uint32_t { kTypePointer = 32, kVariable = 59, kDecorate = 71, kMemberDecorate = 72 };
+    enum : std::uint32_t { kVariable = 59, kDecorate = 71, kMemberDecorate = 72 };
     enum : std::uint32_t { kBlock = 2, kBufferBlock = 3, kArrayStride = 6, kNonWritable = 24, kBinding = 33 };
     enum : std::uint32_t { kOffset = 35, kUniform = 2, kPushConstant = 9 };
     switch (word[0] & 0xffff) {
-      case kName:
-        names_[word[1]] = reinterpret_cast<const char*>(&word[2]);
-        break;
-      case kMemberName:
-        memberNames_[word[1]][word[2]] = reinterpret_cast<const char*>(&word[3]);
-        break;
       case kTypeInt:
       case kTypeFloat:
         sizes_[word[1]] = word[2] / 8;
@@ -123,12 +117,6 @@ class SpirvModule {
       case kTypeRuntimeArray:
         arrayElements_[word[1]] = word[2];
         break;
-      case kTypeStruct:
-        structTypes_[word[1]].assign(word.begin() + 2, word.end());
-        break;
-      case kTypePointer:
-        pointees_[word[1]] = word[3];
-        break;
       case kVariable:
         variables_[word[2]] = word[1];
         if (word[3] == kPushConstant) pushed_.insert(word[2]);
@@ -140,9 +128,6 @@ class SpirvModule {
         break;
       case kLoad:
         if (variables_.count(word[3])) chains_[word[3]].emplace_back();  // all of it
-        break;
-      case kConstant:
-        constants_[word[2]] = word[3];
         break;
       case kDecorate:
         if (word[2] == kArrayStride) strides_[word[1]] = word[3];
@@ -172,10 +157,7 @@ class SpirvModule {
     return sizes_.at(type);
   }
 
-  std::map<Id, std::string> names_;
-  std::map<Id, std::map<std::uint32_t, std::string>> memberNames_;
   std::map<Id, std::map<std::uint32_t, std::uint32_t>> offsets_;
-  std::map<Id, std::vector<Id>> structTypes_;
   std::map<Id, Id> arrayElements_;
   struct Vector {
     Id component;
@@ -183,9 +165,9 @@ class SpirvModule {
   };
   std::map<Id, Vector> vectors_;
   std::map<Id, Id> lengths_;  // of arrays: the constant
-  std::map<Id, std::uint32_t> sizes_, strides_, constants_;
+  std::map<Id, std::uint32_t> sizes_, strides_;
   std::set<Id> blocks_, pushed_, uniform_, readonly_;
-  std::map<Id, Id> pointees_, variables_;  // of variables: the pointer's type
+  std::map<Id, Id> variables_;  // the pointer's type
   std::map<Id, std::uint32_t> bindings_;
   std::map<Id, std::vector<std::vector<Id>>> chains_;  // of variables: the indices that code asks by
 };
