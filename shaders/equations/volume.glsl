@@ -27,7 +27,7 @@
 // In a steady state J sums to 0 and the guess lacks 1 - beta of c. So what all hair of a neighbourhood does
 // meets a resistance of kappa / (1 + kappa (1 - beta)) in a step. beta is chosen so that this is R T, R =
 // kVolumeResponse, whatever the step: with one beta for all steps hair is the stiffer the more of them there
-// are. With R explicit contacts' motion is met best (docs/accuracy.md).
+// are. R is fitted to how hair moves with explicit contacts (tests/scenes/dense_motion_test.cpp).
 // Mirrored by reference/equations/volume.h.
 #ifndef RINGLET_VOLUME
 #define RINGLET_VOLUME

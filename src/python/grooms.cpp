@@ -429,7 +429,7 @@ void addGrooms(py::module_& module) {
   module.def(
       "read_groom", &readGroomFile, py::arg("path"), py::arg("metres_per_unit") = py::none(), py::kw_only(),
       py::arg("points_per_strand") = py::none(), py::arg("root_end") = "first", py::arg("up") = "Y",
-      "Reads a groom from a file of any format of docs/formats.md. metres_per_unit: None takes what a USD "
+      "Reads a groom from a file of any format of docs/formats.md. metres_per_unit: None takes what the "
       "file states, else 0.01. points_per_strand: of a file that holds points and nothing else. root_end: "
       "which end of each strand is its root, first, last, or head, the one on a ball on which most strands "
       "have an end. up: the axis that is to point up, Y or Z, to which a file that states another is turned. What was odd "
