@@ -35,8 +35,9 @@ void main() {
     control.indirectBlocks[axis] = 1;
     control.indirectNodes[axis] = 1;
     control.indirectFilled[axis] = 1;
+    control.indirectReached[axis] = 1;
   }
   control.indirectBlocks[0] = control.cellCount / kBucketBlock + 1;
-  for (uint bin = 0; bin < kNodeBins; ++bin) cells[nodeBin(bin)] = 0;
-  control.indirectNodes[0] = groupsOf(kNodeLanes * control.cellCount);
+  for (uint bin = 0; bin < kCellBins; ++bin) cells[cellBin(bin)] = 0;
+  control.indirectNodes[0] = groupsOf(control.cellCount);
 }

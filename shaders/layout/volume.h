@@ -29,7 +29,8 @@ RINGLET_CONSTANT uint kBindVolumeLocated = 13;    // uvec4[volume particles]: xy
 RINGLET_CONSTANT uint kBindVolumeSums = 14;       // int: if strands are divided among devices, sums at nodes,
                                                   // see nodeSum and the functions after it in
                                                   // shared/volume_buffers.glsl
-RINGLET_CONSTANT uint kVolumeBindingCount = 15;
+RINGLET_CONSTANT uint kBindVolumeCornerSums = 27;  // ivec4: see cornerSum there
+RINGLET_CONSTANT uint kVolumeBindingCount = 16;
 // Some of them also as texels (shared/texels.glsl):
 RINGLET_CONSTANT uint kBindVolumePositionTexels = 15;
 RINGLET_CONSTANT uint kBindVolumeVelocityTexels = 16;
@@ -43,7 +44,8 @@ RINGLET_CONSTANT uint kBindVolumeLocatedTexels = 23;
 RINGLET_CONSTANT uint kBindVolumeCellTexels = 24;  // four numbers each
 RINGLET_CONSTANT uint kBindVolumeAddedTexels = 25;
 RINGLET_CONSTANT uint kBindVolumeNumbers = 26;  // uniform: VolumeNumbers
-RINGLET_CONSTANT uint kVolumeTexelBindingCount = 11;
+RINGLET_CONSTANT uint kBindVolumeCornerSumTexels = 28;
+RINGLET_CONSTANT uint kVolumeTexelBindingCount = 12;
 
 // Constant for each volume particle, in device order: it represents some consecutive particles of a strand by
 // their mean. Of these, `pinned` at the start follow the head, and those from `present` on have fallen.
@@ -87,8 +89,11 @@ struct VolumeBrought {
   vec4 gradientZ;
 };
 
-// Bins of nodes by the number of parcels around them.
-RINGLET_CONSTANT uint kNodeBins = 64;
+// Bins of cells by the number of parcels in them.
+RINGLET_CONSTANT uint kCellBins = 64;
+RINGLET_CONSTANT uint kNoSlot = 0xffffffffu;  // of a cell without parcels
+// Records of 16 bytes in the buffer of corner sums per cell.
+RINGLET_CONSTANT uint kCornerSumsOfCell = 24;
 
 // The box of cells around all volume particles, and the state that the volume's kernels share.
 struct VolumeControl {
@@ -106,14 +111,16 @@ struct VolumeControl {
   uint size[3];            // number of cells along each axis
   float largestCell;       // largest cell size so far [m]
   uint finished;           // workgroups of this dispatch that are done (shared/last_group.glsl)
-  uint indirectFilled[3];  // workgroups over nodes with parcels around them
+  uint indirectFilled[3];  // workgroups over cells with parcels
   uint filled;             // number of these
+  uint indirectReached[3];  // workgroups over nodes with parcels around them
+  uint reached;             // number of these
 };
 
 // Push constants of a dispatch.
 struct VolumeParameters {
   uint step;   // of the frame
-  uint sorts;  // 1: this step sorts particles into cells; 0: they keep their cells
+  uint sorts;  // 1: in the first iteration of a step that sorts particles into cells; else they keep their cells
 };
 
 // Settings, and sizes of the buffers.

@@ -24,6 +24,7 @@ layout(set = 0, binding = kBindVolumeNodes) buffer Nodes { vec4 nodes[]; };
 layout(set = 0, binding = kBindVolumeAdded) buffer AddedByVolume { vec4 addedByVolume[]; };
 layout(set = 0, binding = kBindVolumeControl) buffer Control { VolumeControl control; };
 layout(set = 0, binding = kBindVolumeHalt) buffer Halt { ContactControl halt; };
+layout(set = 0, binding = kBindVolumeCornerSums) buffer CornerSums { ivec4 cornerSums[]; };
 layout(set = 0, binding = kBindVolumeLocated) buffer Located { uvec4 located[]; };
 layout(set = 0, binding = kBindVolumePositionTexels) uniform usamplerBuffer positionTexels;
 layout(set = 0, binding = kBindVolumeVelocityTexels) uniform usamplerBuffer velocityTexels;
@@ -36,15 +37,15 @@ layout(set = 0, binding = kBindVolumeNodeTexels) uniform usamplerBuffer nodeTexe
 layout(set = 0, binding = kBindVolumeLocatedTexels) uniform usamplerBuffer locatedTexels;
 layout(set = 0, binding = kBindVolumeCellTexels) uniform usamplerBuffer cellTexels;
 layout(set = 0, binding = kBindVolumeAddedTexels) uniform usamplerBuffer addedTexels;
+layout(set = 0, binding = kBindVolumeCornerSumTexels) uniform usamplerBuffer cornerSumTexels;
 layout(set = 0, binding = kBindVolumeSums) buffer Sums { int sums[]; };
 layout(push_constant) uniform Parameters { VolumeParameters parameters; };
 layout(set = 0, binding = kBindVolumeNumbers) uniform Numbers { VolumeNumbers numbers; };
 
 layout(constant_id = kSpecDivided) const bool kDivided = false;  // other devices step some of the strands
 layout(constant_id = kSpecForGpu) const bool kForGpu = false;
-/// Invocations that share a node of the grid. On a GPU a dispatch takes as long as its longest sum at a node;
-/// on a CPU device each core has enough nodes, and waiting for others would cost time.
-const uint kNodeLanes = kForGpu ? 4 : 1;
+
+const uint kDealt = kForGpu ? 1 : 16;  // the workgroups of gather are a multiple of it
 
 /// The box of cells, of VolumeControl. A number of a buffer that is one for all lanes is read at the top of main
 /// (readBox): behind a branch a driver may read it lane by lane.
@@ -52,12 +53,13 @@ struct Box {
   ivec3 low;
   float cell, cellsPerMetre;
   uvec3 size;
-  uint cellCount, filled;
+  uint cellCount, filled, reached;
 };
 Box box;
 void readBox() {
   box = Box(ivec3(control.low[0], control.low[1], control.low[2]), control.cell, control.cellsPerMetre,
-            uvec3(control.size[0], control.size[1], control.size[2]), control.cellCount, control.filled);
+            uvec3(control.size[0], control.size[1], control.size[2]), control.cellCount, control.filled,
+            control.reached);
 }
 
 /// Finds the volume particle of this invocation; false if there is none.
@@ -90,6 +92,9 @@ VolumeParcel parcelAt(uint place) {
   if (!kTexels) return parcels[place];
   return VolumeParcel(vectorAt(parcelTexels, 4 * place), vectorAt(parcelTexels, 4 * place + 1),
                       vectorAt(parcelTexels, 4 * place + 2), vectorAt(parcelTexels, 4 * place + 3));
+}
+vec3 parcelPlace(uint place) {
+  return kTexels ? vectorAt(parcelTexels, 4 * place + 1).xyz : parcels[place].place.xyz;
 }
 mat3 gradientOf(VolumeParcel parcel) {
   return mat3(parcel.gradientX.xyz, parcel.gradientY.xyz, vec3(parcel.place.w, parcel.gradientX.w, parcel.gradientY.w));
@@ -139,8 +144,19 @@ uint cellSum(uint block) { return 2 * numbers.cellCapacity + block; }  // sum be
 uint cellOf(uint i) { return cellSum(numbers.cellCapacity / kBucketBlock) + i; }
 uint cellRank(uint i) { return cellOf(numbers.count) + i; }  // rank in its cell, in arbitrary order
 uint parcelMass(uint place) { return cellRank(numbers.count) + place; }  // bits of a float, of unit unitsPerMass
-uint nodeBin(uint bin) { return parcelMass(numbers.count) + bin; }  // number of nodes in a bin, then where it begins
-uint nodeOrder(uint k) { return nodeBin(kNodeBins) + k; }  // the nodes with parcels around them, bin by bin
+uint cellBin(uint bin) { return parcelMass(numbers.count) + bin; }  // number of cells in a bin, then where it begins
+uint filledCell(uint slot) { return cellBin(kCellBins) + slot; }  // the cells with parcels, bin by bin
+uint slotOf(uint cell) { return filledCell(numbers.cellCapacity) + cell; }  // the slot of a cell there, or kNoSlot
+uint reachedNode(uint k) { return slotOf(numbers.cellCapacity) + k; }  // the nodes with parcels around them
+
+/// Cells with so many parcels are in one bin: four bins from a power of two to the next.
+uint binOf(uint count) { return min((floatBitsToUint(float(count)) >> 21) - (127u << 2), kCellBins - 1); }
+
+// Sums over the parcels of a cell at one of its corners, by its slot. cornerSum: of the parcels' rates, high and low
+// (maths/split_sum.glsl) one after another; cornerMass: x high, y low.
+uint cornerSum(uint slot, uint corner) { return kCornerSumsOfCell * slot + 2 * corner; }
+uint cornerMass(uint slot, uint corner) { return kCornerSumsOfCell * slot + 16 + corner; }
+ivec4 cornerSumAt(uint at) { return kTexels ? ivec4(recordAt(cornerSumTexels, at)) : cornerSums[at]; }
 
 /// A number of that buffer as it was when the dispatch began.
 uint cellNumber(uint at) { return kTexels ? recordAt(cellTexels, at / 4)[at % 4] : cells[at]; }
@@ -176,10 +192,17 @@ vec3 placeInCells(vec3 place) {
 /// The cell of a place, which is given in units of cells. The last cell along each axis only provides nodes.
 uvec3 cellInBox(vec3 inCells) { return uvec3(clamp(floor(inCells), vec3(0), vec3(box.size) - 2.0)); }
 uvec3 cornerOf(uvec3 cell, uint corner) { return cell + uvec3(corner & 1, corner >> 1 & 1, corner >> 2); }
+/// a / b; exact for a < 2^21, and faster than an integer division.
+uint quotient(uint a, uint b) { return uint((float(a) + 0.5) / float(b)); }
+uvec3 placeOfCell(uint cell) {
+  uint row = quotient(cell, box.size.x);
+  uint z = quotient(row, box.size.y);
+  return uvec3(cell - row * box.size.x, row - z * box.size.y, z);
+}
 uint cellIndex(uvec3 cell) { return (cell.z * box.size.y + cell.y) * box.size.x + cell.x; }
 
 // If strands are divided among devices, the parts of the buffer of sums: for each node eight numbers from
-// gather, then for each node two from density, high and low (maths/split_sum.glsl).
+// gather, then for each node two of mass, high and low (maths/split_sum.glsl).
 uint nodeSum(uint node) { return 8 * node; }
 uint densitySum(uint node) { return 8 * numbers.cellCapacity + 2 * node; }
 /// The mean of a at a node [m/s], from sums of terms in integer units.

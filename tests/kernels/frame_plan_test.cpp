@@ -99,14 +99,14 @@ TEST(FramePlan, ContactsStandBetweenTheSolvesOfAStep) {
                                           "brought 0, first", "motion 0",
                                           "grid 0",           "lists 0",
                                           "touch 0",          "sort 0",
-                                          "sums 0, first",    "means 0",
+                                          "sums 0, first",    "means 0, first",
                                           "solve 0 contacts", "brought 0",
                                           "sums 0",           "next 0",
                                           "means 0",          "solve 0 move goes on",
                                           "brought 1, first", "motion 1",
                                           "grid 1",           "lists 1",
                                           "touch 1",          "sums 1, first",
-                                          "means 1",          "solve 1 contacts",
+                                          "means 1, first",   "solve 1 contacts",
                                           "brought 1",        "sums 1",
                                           "next 1",           "means 1",
                                           "solve 1 move",     "end"};
@@ -115,9 +115,10 @@ TEST(FramePlan, ContactsStandBetweenTheSolvesOfAStep) {
 
 TEST(FramePlan, AFirstSolveWithoutBodiesIsAPassOfItsOwn) {
   const Plan plan = stagesOf({.steps = 2, .contacts = {false, true}, .predictsWithoutBodies = true});
-  const std::vector<std::string> expected{
-      "inputs",       "solve 0 bare",     "brought 0, first", "sums 0, first", "means 0",      "solve 0 move",
-      "solve 1 bare", "brought 1, first", "sums 1, first",    "means 1",       "solve 1 move", "end"};
+  const std::vector<std::string> expected{"inputs",         "solve 0 bare",     "brought 0, first",
+                                          "sums 0, first",  "means 0, first",   "solve 0 move",
+                                          "solve 1 bare",   "brought 1, first", "sums 1, first",
+                                          "means 1, first", "solve 1 move",     "end"};
   EXPECT_EQ(textsOf(plan), expected);
 }
 

@@ -1,6 +1,6 @@
 // The sums at the nodes of the volume's grid: the same bits in whatever order parcels stand in a cell, and
-// however they are divided among devices. Mirrors shaders/kernels/volume_gather.comp, volume_density.comp and
-// volume_mean.comp.
+// however they are divided among devices. Mirrors shaders/kernels/volume_rank.comp, volume_order.comp,
+// volume_gather.comp, volume_nodes.comp and volume_mean.comp.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,6 +22,7 @@ namespace ringlet::test::volume_gather_test {
 namespace {
 
 constexpr std::uint32_t kSide = 5, kNodes = kSide * kSide * kSide, kCells = layout::kBucketBlock;
+constexpr std::uint32_t kGroups = (kNodes + kVolumeGroupSize - 1) / kVolumeGroupSize;
 constexpr std::size_t kParcels = 4000;
 constexpr float kMostRate = 32;
 
@@ -75,10 +76,9 @@ class VolumeGather : public GpuTest {
     words.push_back(0);
     words.resize(words.size() + 2 * kParcels);
     for (const InCell& each : parcels) words.push_back(std::bit_cast<std::uint32_t>(each.mass));
-    words.resize(words.size() + kParcels - parcels.size() + layout::kNodeBins);
-    for (std::uint32_t node = 0; node < kNodes; ++node) words.push_back(node);  // in no better order
+    words.resize(words.size() + kParcels - parcels.size() + layout::kCellBins + 3 * kCells);
     layout::VolumeControl control{};
-    control.cellCount = control.filled = kNodes;
+    control.cellCount = kNodes;
     control.cellsPerMetre = 1, control.cell = 1;
     for (std::uint32_t& size : control.size) size = kSide;
     auto halt = createZero(gpu(), sizeof(layout::ContactControl), "halt");
@@ -87,32 +87,38 @@ class VolumeGather : public GpuTest {
     auto all = createFilled(gpu(), stand, "parcels");
     auto nodes = createZero(gpu(), kNodes * sizeof(layout::vec4), "nodes");
     auto sums = createZero(gpu(), 10 * kCells * sizeof(std::int32_t), "sums");
+    auto corners = createZero(gpu(), kCells * layout::kCornerSumsOfCell * sizeof(layout::vec4), "corners");
     auto block = createFilled(gpu(), std::vector{control}, "control");
-    EXPECT_TRUE(halt && unused && cells && all && nodes && sums && block);
+    EXPECT_TRUE(halt && unused && cells && all && nodes && sums && corners && block);
     layout::VolumeNumbers numbers{};
     numbers.count = kParcels, numbers.cellCapacity = kCells;
     numbers.mostRate = kMostRate, numbers.unitsPerMass = 1, numbers.unitsPerGain = 1;
     auto ofNumbers = createFilled(gpu(), std::vector{numbers}, "numbers");
     EXPECT_TRUE(ofNumbers);
-    const auto run = [&](VolumeKernel which) {
+    const auto run = [&](VolumeKernel which, std::uint32_t groups = kGroups) {
       auto kernel = gpu::Kernel::create(gpu(), describeVolumeKernel(which, texels, forGpu, divided));
       EXPECT_TRUE(kernel);
       gpu::BufferTable buffers{
-          {layout::kBindVolumeCells, *cells},      {layout::kBindVolumeCellTexels, *cells},
-          {layout::kBindVolumeParcels, *all},      {layout::kBindVolumeParcelTexels, *all},
-          {layout::kBindVolumeNodes, *nodes},      {layout::kBindVolumeSums, *sums},
-          {layout::kBindVolumeControl, *block},    {layout::kBindVolumeHalt, *halt},
+          {layout::kBindVolumeCells, *cells},        {layout::kBindVolumeCellTexels, *cells},
+          {layout::kBindVolumeParcels, *all},        {layout::kBindVolumeParcelTexels, *all},
+          {layout::kBindVolumeNodes, *nodes},        {layout::kBindVolumeSums, *sums},
+          {layout::kBindVolumeCornerSums, *corners}, {layout::kBindVolumeCornerSumTexels, *corners},
+          {layout::kBindVolumeControl, *block},      {layout::kBindVolumeHalt, *halt},
           {layout::kBindVolumeNumbers, *ofNumbers}};
       for (const auto& [number, kind] : (*kernel)->bindings()) buffers.emplace(number, *unused);
       auto bindings = gpu::Bindings::create(**kernel, buffers);
       auto recorder = gpu::Recorder::create(gpu(), "nodes");
       EXPECT_TRUE(bindings && recorder && recorder->begin());
-      recorder->dispatch(**kernel, *bindings, layout::VolumeParameters{0, 1},
-                         ((forGpu ? 4 : 1) * kNodes + 63) / 64);
+      recorder->dispatch(**kernel, *bindings, layout::VolumeParameters{0, 1}, groups);
       EXPECT_TRUE(recorder->submitAndWait());
     };
-    run(VolumeKernel::gather);
-    run(VolumeKernel::density);
+    run(VolumeKernel::rank);
+    run(VolumeKernel::order);
+    const layout::VolumeControl ordered = downloadAll<layout::VolumeControl>(*block, 1)->front();
+    EXPECT_EQ(ordered.filled, (kSide - 1) * (kSide - 1) * (kSide - 1));
+    EXPECT_EQ(ordered.reached, kNodes);
+    run(VolumeKernel::gather, ordered.indirectFilled[0]);
+    run(VolumeKernel::nodes, divided ? kGroups : ordered.indirectReached[0]);
     Nodes result;
     result.sums = *downloadAll<std::int32_t>(*sums, 10 * kCells);
     if (!others.empty()) {

@@ -198,16 +198,16 @@ Status Simulation::Implementation::record(FrameRecording& frame, const PlannedSt
       contacts.pairs->recordNext(list, now);
       break;
     case FrameStage::brought:
-      contacts.volume->recordBrought(list, now, stage.step, stage.isFirst);
+      contacts.volume->recordBrought(list, now, {stage.step, stage.isFirst});
       break;
     case FrameStage::sort:
       contacts.volume->recordSort(list, now, stage.step);
       break;
     case FrameStage::sums:
-      contacts.volume->recordSums(list, now, stage.step);
+      contacts.volume->recordSums(list, now, {stage.step, stage.isFirst});
       break;
     case FrameStage::means:
-      contacts.volume->recordMeans(list, now, stage.step);
+      contacts.volume->recordMeans(list, now, {stage.step, stage.isFirst});
       break;
     case FrameStage::reach:
       contacts.volume->recordReach(list);

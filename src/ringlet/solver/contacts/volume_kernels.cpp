@@ -9,9 +9,9 @@
 #include "ringlet_shaders/volume_box_plain.h"
 #include "ringlet_shaders/volume_bring_plain.h"
 #include "ringlet_shaders/volume_count_plain.h"
-#include "ringlet_shaders/volume_density_plain.h"
 #include "ringlet_shaders/volume_gather_plain.h"
 #include "ringlet_shaders/volume_mean_plain.h"
+#include "ringlet_shaders/volume_nodes_plain.h"
 #include "ringlet_shaders/volume_order_plain.h"
 #include "ringlet_shaders/volume_place_plain.h"
 #include "ringlet_shaders/volume_rank_plain.h"
@@ -29,12 +29,12 @@ struct Compiled {
 
 // In the order of VolumeKernel.
 const Compiled kCompiled[kVolumeKernelCount] = {
-    {"volume_begin", k_volume_begin_plain},     {"volume_box", k_volume_box_plain},
-    {"volume_count", k_volume_count_plain},     {"volume_scan", k_volume_scan_plain},
-    {"volume_start", k_volume_start_plain},     {"volume_place", k_volume_place_plain},
-    {"volume_rank", k_volume_rank_plain},       {"volume_order", k_volume_order_plain},
-    {"volume_density", k_volume_density_plain}, {"volume_bring", k_volume_bring_plain},
-    {"volume_gather", k_volume_gather_plain},   {"volume_mean", k_volume_mean_plain},
+    {"volume_begin", k_volume_begin_plain},   {"volume_box", k_volume_box_plain},
+    {"volume_count", k_volume_count_plain},   {"volume_scan", k_volume_scan_plain},
+    {"volume_start", k_volume_start_plain},   {"volume_place", k_volume_place_plain},
+    {"volume_rank", k_volume_rank_plain},     {"volume_order", k_volume_order_plain},
+    {"volume_bring", k_volume_bring_plain},   {"volume_gather", k_volume_gather_plain},
+    {"volume_nodes", k_volume_nodes_plain},   {"volume_mean", k_volume_mean_plain},
     {"volume_spread", k_volume_spread_plain},
 };
 

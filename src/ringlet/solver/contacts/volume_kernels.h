@@ -8,9 +8,9 @@
 
 namespace ringlet {
 
-/// In the order of a step. Box to density run only in steps that sort particles into cells; bring only in
+/// In the order of a step. Box to order run only in steps that sort particles into cells; bring only in
 /// iterations after the first; gather to spread in every iteration; mean only if strands are divided among
-/// devices, rank and order only if they are not.
+/// devices.
 enum class VolumeKernel {
   begin,
   box,
@@ -20,9 +20,9 @@ enum class VolumeKernel {
   place,
   rank,
   order,
-  density,
   bring,
   gather,
+  nodes,
   mean,
   spread
 };

@@ -23,7 +23,8 @@ constexpr std::uint64_t kMostCells = std::uint64_t{1} << 21;
 
 constexpr std::uint64_t kPerCellBlock = offsetof(layout::VolumeControl, indirectBlocks),
                         kPerNode = offsetof(layout::VolumeControl, indirectNodes),
-                        kPerFilled = offsetof(layout::VolumeControl, indirectFilled);
+                        kPerFilled = offsetof(layout::VolumeControl, indirectFilled),
+                        kPerReached = offsetof(layout::VolumeControl, indirectReached);
 
 std::uint32_t cellCapacity(std::uint64_t wanted) {
   const std::uint64_t blocks = std::min(wanted + wanted / 500, kMostCells) / layout::kBucketBlock + 1;
@@ -62,7 +63,7 @@ layout::VolumeControl emptyControl() {
   return control;
 }
 
-// Numbers per node in the buffer of sums, from gather and from density (shared/volume_buffers.glsl).
+// Numbers per node in the buffer of sums, of rates and of mass (shared/volume_buffers.glsl).
 constexpr std::size_t kSumsOfNode = 8, kDensitiesOfNode = 2;
 
 std::uint32_t groupsOf(std::uint64_t particles) {
@@ -73,8 +74,13 @@ std::uint32_t groupsOf(std::uint64_t particles) {
 
 std::uint64_t VolumeStage::cellWords() const {
   const std::uint64_t capacity = numbers_.cellCapacity;
-  return 3 * capacity + capacity / layout::kBucketBlock + 3 * std::uint64_t{numbers_.count} +
-         layout::kNodeBins;
+  return 5 * capacity + capacity / layout::kBucketBlock + 3 * std::uint64_t{numbers_.count} +
+         layout::kCellBins;
+}
+
+std::uint64_t VolumeStage::cornerSumBytes() const {
+  const std::uint64_t mostFilled = std::min(numbers_.count, numbers_.cellCapacity);
+  return mostFilled * layout::kCornerSumsOfCell * sizeof(layout::vec4);
 }
 
 std::uint64_t VolumeStage::sumBytes() const {
@@ -109,7 +115,7 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
                                     sizeof(layout::VolumeBrought) + sizeof(layout::VolumeParcel) +
                                     sizeof(layout::vec4);
   const std::uint64_t needed = count * perParticle + self.cellWords() * sizeof(std::uint32_t) +
-                               capacity * sizeof(layout::vec4) + self.sumBytes();
+                               capacity * sizeof(layout::vec4) + self.cornerSumBytes() + self.sumBytes();
   if (Status status = checkMemory(fmt::format("{} particles as a volume", count), needed,
                                   gpu::availableStorageBytes(device));
       !status)
@@ -128,9 +134,9 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
 }
 
 Status VolumeStage::makeKernels(gpu::Device& device) {
-  const std::uint64_t largest =
-      std::max({groom_->largestTexels(), numbers_.count * sizeof(layout::VolumeState),
-                numbers_.cellCapacity * sizeof(layout::vec4), cellWords() * sizeof(std::uint32_t)});
+  const std::uint64_t largest = std::max(
+      {groom_->largestTexels(), numbers_.count * sizeof(layout::VolumeState),
+       numbers_.cellCapacity * sizeof(layout::vec4), cellWords() * sizeof(std::uint32_t), cornerSumBytes()});
   const bool texels = isSeenAsTexels(device, std::max(largest, kLeastTexelBytes));
   for (std::size_t k = 0; k < kVolumeKernelCount; ++k) {
     const auto description =
@@ -162,6 +168,9 @@ Status VolumeStage::makeBuffers(gpu::Device& device, const RestState& rest, cons
   if (!parcels) return parcels.error();
   auto nodes = createZero(device, numbers_.cellCapacity * sizeof(layout::vec4), "volume nodes");
   if (!nodes) return nodes.error();
+  auto cornerSums =
+      gpu::Buffer::create(device, cornerSumBytes(), gpu::BufferKind::storage, "volume corner sums");
+  if (!cornerSums) return cornerSums.error();
   auto control = createZero(device, sizeof(layout::VolumeControl), "volume control");
   if (!control) return control.error();
   auto controlRead = gpu::Buffer::create(device, sizeof(layout::VolumeControl), gpu::BufferKind::stream,
@@ -170,22 +179,23 @@ Status VolumeStage::makeBuffers(gpu::Device& device, const RestState& rest, cons
   auto numbers = createZero(device, sizeof(layout::VolumeNumbers), "volume numbers");
   if (!numbers) return numbers.error();
   buffers_.emplace(Buffers{std::move(*particles), std::move(*states), std::move(*brought), std::move(*cells),
-                           std::move(*parcels), std::move(*nodes), std::move(*control), std::move(*located),
-                           std::move(*sums), std::move(*controlRead), std::move(*numbers)});
+                           std::move(*parcels), std::move(*nodes), std::move(*cornerSums),
+                           std::move(*control), std::move(*located), std::move(*sums),
+                           std::move(*controlRead), std::move(*numbers)});
   return {};
 }
 
 std::uint64_t VolumeStage::bytes() const {
   const Buffers& b = *buffers_;
   return b.particles.bytes() + b.states.bytes() + b.brought.bytes() + b.located.bytes() + b.cells.bytes() +
-         b.parcels.bytes() + b.nodes.bytes() + b.control.bytes() + b.sums.bytes() + b.controlRead.bytes() +
-         b.numbers.bytes();
+         b.parcels.bytes() + b.nodes.bytes() + b.cornerSums.bytes() + b.control.bytes() + b.sums.bytes() +
+         b.controlRead.bytes() + b.numbers.bytes();
 }
 
 gpu::BufferTable VolumeStage::bufferTable() const {
   using namespace layout;
-  const auto& [particles, states, brought, cells, parcels, nodes, control, located, sums, controlRead,
-               numbers] = *buffers_;
+  const auto& [particles, states, brought, cells, parcels, nodes, cornerSums, control, located, sums,
+               controlRead, numbers] = *buffers_;
   const DeviceChunk& hair = groom_->chunks[0];
   return {{kBindVolumePositions, hair.positions},
           {kBindVolumeVelocities, hair.velocities},
@@ -198,6 +208,8 @@ gpu::BufferTable VolumeStage::bufferTable() const {
           {kBindVolumeParcels, parcels},
           {kBindVolumeNodes, nodes},
           {kBindVolumeAdded, hair.addedByVolume},
+          {kBindVolumeCornerSums, cornerSums},
+          {kBindVolumeCornerSumTexels, cornerSums},
           {kBindVolumeControl, control},
           {kBindVolumeHalt, groom_->contactControl},
           {kBindVolumeLocated, located},
@@ -254,74 +266,70 @@ Status VolumeStage::setSettings(const Settings& settings) {
   return buffers_->numbers.upload(std::as_bytes(std::span(&numbers_, 1)));
 }
 
-layout::VolumeParameters VolumeStage::parameters(std::uint32_t step) const {
-  return {step, sorts_.sorts(step) ? 1u : 0u};
+layout::VolumeParameters VolumeStage::parameters(Iteration at) const {
+  return {at.step, at.isFirst && sorts_.sorts(at.step) ? 1u : 0u};
 }
-void VolumeStage::dispatch(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step,
+void VolumeStage::dispatch(gpu::CommandList& list, VolumeKernel kernel, Iteration at,
                            std::uint32_t groups) const {
-  const auto at = static_cast<std::size_t>(kernel);
-  list.dispatch(*kernels_[at], bindings_[at], parameters(step), groups);
+  const auto k = static_cast<std::size_t>(kernel);
+  list.dispatch(*kernels_[k], bindings_[k], parameters(at), groups);
 }
-void VolumeStage::dispatchIndirect(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step,
+void VolumeStage::dispatchIndirect(gpu::CommandList& list, VolumeKernel kernel, Iteration at,
                                    std::uint64_t offset) const {
-  const auto at = static_cast<std::size_t>(kernel);
-  list.dispatchIndirect(*kernels_[at], bindings_[at], parameters(step), buffers_->control, offset);
+  const auto k = static_cast<std::size_t>(kernel);
+  list.dispatchIndirect(*kernels_[k], bindings_[k], parameters(at), buffers_->control, offset);
 }
-
-std::uint64_t VolumeStage::perSum() const { return isDivided_ ? kPerNode : kPerFilled; }
 
 void VolumeStage::recordNothing(gpu::CommandList& list) const {
   for (const std::size_t k : newKernels_) list.dispatchNothing(*kernels_[k], bindings_[k]);
 }
 
-void VolumeStage::dispatchParticles(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step) const {
+void VolumeStage::dispatchParticles(gpu::CommandList& list, VolumeKernel kernel, Iteration at) const {
   const std::uint32_t groups = groupsOf(numbers_.count);
-  if (groups > 0) dispatch(list, kernel, step, groups);
+  if (groups > 0) dispatch(list, kernel, at, groups);
 }
 
-void VolumeStage::recordBrought(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step,
-                                bool isFirst) const {
-  pace.beginStage(list, isFirst ? "volume_begin" : "volume_bring");
-  dispatchParticles(list, isFirst ? VolumeKernel::begin : VolumeKernel::bring, step);
+void VolumeStage::recordBrought(gpu::CommandList& list, SubmissionPace& pace, Iteration at) const {
+  pace.beginStage(list, at.isFirst ? "volume_begin" : "volume_bring");
+  dispatchParticles(list, at.isFirst ? VolumeKernel::begin : VolumeKernel::bring, at);
   list.endStage();
 }
 
 void VolumeStage::recordSort(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const {
   using enum VolumeKernel;
+  const Iteration at{step, true};
   pace.beginStage(list, "volume_sort");
-  dispatch(list, box, step, 1);
+  dispatch(list, box, at, 1);
   list.barrier();
-  dispatchParticles(list, count, step);
+  dispatchParticles(list, count, at);
   list.barrier();
-  dispatchIndirect(list, scan, step, kPerCellBlock);
+  dispatchIndirect(list, scan, at, kPerCellBlock);
   list.barrier();
-  dispatchIndirect(list, start, step, kPerCellBlock);
+  dispatchIndirect(list, start, at, kPerCellBlock);
   list.barrier();
-  dispatchParticles(list, place, step);
+  dispatchParticles(list, place, at);
   list.barrier();
-  if (!isDivided_) {
-    for (const VolumeKernel kernel : {rank, order}) {
-      dispatchIndirect(list, kernel, step, kPerNode);
-      list.barrier();
-    }
-  }
-  dispatchIndirect(list, density, step, perSum());
+  dispatchIndirect(list, rank, at, kPerNode);
+  list.barrier();
+  dispatchIndirect(list, order, at, kPerNode);
   list.endStage();
 }
 
-void VolumeStage::recordSums(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const {
+void VolumeStage::recordSums(gpu::CommandList& list, SubmissionPace& pace, Iteration at) const {
   pace.beginStage(list, "volume_gather");
-  dispatchIndirect(list, VolumeKernel::gather, step, perSum());
+  dispatchIndirect(list, VolumeKernel::gather, at, kPerFilled);
+  list.barrier();
+  dispatchIndirect(list, VolumeKernel::nodes, at, isDivided_ ? kPerNode : kPerReached);
   list.endStage();
 }
 
-void VolumeStage::recordMeans(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const {
+void VolumeStage::recordMeans(gpu::CommandList& list, SubmissionPace& pace, Iteration at) const {
   pace.beginStage(list, "volume_spread");
   if (isDivided_) {
-    dispatchIndirect(list, VolumeKernel::mean, step, kPerNode);
+    dispatchIndirect(list, VolumeKernel::mean, at, kPerNode);
     list.barrier();
   }
-  dispatchParticles(list, VolumeKernel::spread, step);
+  dispatchParticles(list, VolumeKernel::spread, at);
   list.endStage();
 }
 

@@ -63,16 +63,21 @@ class VolumeStage {
   void beginFrame(std::uint32_t steps) { sorts_.beginFrame(steps); }
   std::uint32_t untilSort() const { return sorts_.until(); }
 
+  /// An iteration of a step's solve.
+  struct Iteration {
+    std::uint32_t step = 0;
+    bool isFirst = false;  // of the step
+  };
   /// Record the stages of a step (plan/frame_plan.h). The caller records the barriers before and after each.
   /// The kernels do nothing if contacts of pairs have halted. recordBrought: contributions of the particles
-  /// in an iteration; isFirst: the first iteration of a step.
-  void recordBrought(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step, bool isFirst) const;
+  /// in an iteration.
+  void recordBrought(gpu::CommandList& list, SubmissionPace& pace, Iteration at) const;
   /// recordSort: once in a step that sorts. In each iteration recordSums sums contributions at the grid's
   /// nodes, and recordMeans gives the particles the means.
   bool sorts(std::uint32_t step) const { return sorts_.sorts(step); }
   void recordSort(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
-  void recordSums(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
-  void recordMeans(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
+  void recordSums(gpu::CommandList& list, SubmissionPace& pace, Iteration at) const;
+  void recordMeans(gpu::CommandList& list, SubmissionPace& pace, Iteration at) const;
 
   /// For divided hair: recordControl copies the control block to the host, at the end of every submission;
   /// recordReach copies the reach back, before recordSort.
@@ -82,8 +87,8 @@ class VolumeStage {
   /// particles here as {-least, greatest}; set it to the largest values of all parts before recordReach.
   std::array<std::int32_t, 6> reach() const;
   void setReach(const std::array<std::int32_t, 6>& reach);
-  /// After recordSums: the sums, to be replaced by their totals over all parts before recordMeans; after
-  /// recordSort the densities likewise.
+  /// After recordSums: the sums, to be replaced by their totals over all parts before recordMeans; in the
+  /// first iteration of a step that sorts the densities likewise.
   std::span<std::uint32_t> sums();
   std::span<std::uint32_t> densities();
 
@@ -107,22 +112,21 @@ class VolumeStage {
 
  private:
   struct Buffers {
-    gpu::Buffer particles, states, brought, cells, parcels, nodes, control, located, sums, controlRead,
-        numbers;
+    gpu::Buffer particles, states, brought, cells, parcels, nodes, cornerSums, control, located, sums,
+        controlRead, numbers;
   };
   VolumeStage() = default;
   Status makeKernels(gpu::Device& device);
   Status makeBuffers(gpu::Device& device, const RestState& rest, const Settings& settings,
                      const RestVolume& volume);
   std::uint64_t cellWords() const;
+  std::uint64_t cornerSumBytes() const;
   std::uint64_t sumBytes() const;
-  layout::VolumeParameters parameters(std::uint32_t step) const;
-  void dispatch(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step, std::uint32_t groups) const;
-  void dispatchParticles(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step) const;
-  void dispatchIndirect(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step,
+  layout::VolumeParameters parameters(Iteration at) const;
+  void dispatch(gpu::CommandList& list, VolumeKernel kernel, Iteration at, std::uint32_t groups) const;
+  void dispatchParticles(gpu::CommandList& list, VolumeKernel kernel, Iteration at) const;
+  void dispatchIndirect(gpu::CommandList& list, VolumeKernel kernel, Iteration at,
                         std::uint64_t offset) const;
-  // Where the control block has the workgroups of sums over parcels.
-  std::uint64_t perSum() const;
   layout::VolumeControl& hostControl() const;
 
   std::vector<std::shared_ptr<const gpu::Kernel>> kernels_;  // by VolumeKernel

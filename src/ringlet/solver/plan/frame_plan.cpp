@@ -36,7 +36,8 @@ class FramePlanner {
       for (std::uint32_t iteration = 1; iteration <= needs_.iterations; ++iteration) {
         const bool isLast = iteration == needs_.iterations;
         if (iteration > 1) nextContacts(step);
-        if (needs_.contacts.volume) add({.stage = FrameStage::means, .step = step});
+        if (needs_.contacts.volume)
+          add({.stage = FrameStage::means, .step = step, .isFirst = iteration == 1});
         solve({step, true, isLast, isLast && step + 1 < needs_.steps}, iteration == 1);
       }
     }

@@ -57,7 +57,7 @@ struct PlannedStage {
   FrameStage stage = FrameStage::end;
   std::uint32_t step = 0;
   bool barrier = true;   // a barrier follows
-  bool isFirst = false;  // for brought, sums and the exchange of sums: in the first iteration of a step
+  bool isFirst = false;  // for brought, sums, their exchange and means: in the first iteration of a step
   // For motion: layout::kOfAll, kOfHere or kOfElsewhere; a repeated step takes kOfAll in place of
   // kOfElsewhere.
   std::uint32_t whose = 0;
