@@ -196,7 +196,7 @@ RestStrand<double> deriveRestStrand(std::span<const Vec3f> points, double metres
   // Metres are rounded to float, as the solver stores them, so that both start from the same curve.
   std::vector<Vec3d> curve;
   for (const Vec3f& point : points) {
-    curve.push_back(static_cast<Vec3d>(static_cast<Vec3f>(static_cast<Vec3d>(point) * metresPerUnit)));
+    curve.push_back(asStored(static_cast<Vec3d>(point) * metresPerUnit));
     strand.points.push_back(toEigen<double>(curve.back()));
   }
   if (curve.size() < 2) {

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <type_traits>
 
 #include "ringlet/base/assert.h"
+#include "ringlet/crossings/crossing_step.h"
 #include "ringlet/rest/goal.h"
 
 namespace ringlet::reference {
@@ -389,12 +391,15 @@ void Simulation<Real>::stepOnce(std::size_t k, std::size_t steps, const HeadPose
     solveContacts(settings_.contacts, frame, firstPoint_, systems_, solveOne, positions_, contacts_,
                   velocities_);
   }
+  const bool keepsApart = settings_.contacts.on && settings_.contacts.noCrossings;
+  const Field<Real> starts = keepsApart ? positions_ : Field<Real>{};
   for (std::size_t s = 0; s < rest_.size(); ++s) {
     if (isRigid_[s]) continue;
     moveStrand(rest_[s], settings_, headStep(next, s, roots[s]), ofStrand(bodies, s), strandOf(positions_, s),
                strandOf(velocities_, s), scratch_, taps_[s]);
     record(rest_[s], taps_[s]);
   }
+  if (keepsApart) keepApart(next, starts);
   if (settings_.contacts.on) rememberChanges(velocities_, contacts_);
   ++report_.steps;
   previousHead_ = head_;
@@ -403,6 +408,38 @@ void Simulation<Real>::stepOnce(std::size_t k, std::size_t steps, const HeadPose
   rootPoses_ = roots;
   for (std::size_t s = 0; s < rest_.size(); ++s) placeRigid(s);
   bodyPoses_.assign(bodyPoses.begin(), bodyPoses.end());
+}
+
+template <class Real>
+void Simulation<Real>::keepApart(const HeadPose& next, const Field<Real>& starts) {
+  CrossingHair hair{.firstPoint = firstPoint_,
+                    .bundles = bundlesOf(settings_.contacts, rest_.size()),
+                    .takesPart = {},
+                    .masses = {},
+                    .lengths = {},
+                    .maxStretch = settings_.maxStretch};
+  for (std::size_t s = 0; s < rest_.size(); ++s) {
+    hair.takesPart.push_back(!isRigid_[s]);
+    for (std::size_t i = 0; i < rest_[s].particleCount(); ++i) {
+      hair.masses.push_back(i < rest_[s].rootCount ? 0 : static_cast<double>(rest_[s].masses[i]));
+      hair.lengths.push_back(i < rest_[s].edgeCount() ? static_cast<double>(rest_[s].edgeLengths[i]) : 0);
+    }
+  }
+  const auto points = [](const Field<Real>& field) {
+    std::vector<Vec3d> all;
+    for (const Vector3<Real>& x : field) all.push_back({double(x[0]), double(x[1]), double(x[2])});
+    return all;
+  };
+  const std::vector<Vec3d> wanted = points(positions_);
+  std::vector<Vec3d> placed = wanted;
+  const Quatd turn = normalized(next.rotation * head_.rotation.conjugate());
+  ways_.add(
+      keepFromCrossing(hair, turn, points(starts), placed, {.storesFloat = std::is_same_v<Real, float>}));
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    if (placed[i] == wanted[i]) continue;
+    positions_[i] = toEigen<Real>(placed[i]);
+    velocities_[i] += toEigen<Real>((placed[i] - wanted[i]) / settings_.stepSeconds());
+  }
 }
 
 template <class Real>
@@ -481,7 +518,9 @@ void Simulation<Real>::archive(Archive& archive) {
   archive.values(numbersOf(positions_));
   archive.values(numbersOf(velocities_));
   archive.value(report_);
-  if (settings_.contacts.on) archiveContacts(archive, contacts_);
+  if (!settings_.contacts.on) return;
+  archiveContacts(archive, contacts_);
+  archive.value(ways_);
 }
 
 template class Simulation<float>;

@@ -11,6 +11,7 @@
 #include "reference/kernels/contact_step.h"
 #include "reference/kernels/strand_step.h"
 #include "ringlet/base/archive.h"
+#include "ringlet/crossings/crossing_report.h"
 #include "ringlet/groom/groom.h"
 #include "ringlet/scene/body.h"
 #include "ringlet/scene/head_pose.h"
@@ -97,6 +98,8 @@ class Simulation {
   const std::vector<std::uint32_t>& firstPoint() const { return firstPoint_; }
   /// The contacts, with the results of the last outer step; empty unless settings.contacts.on.
   const Contacts<Real>& contacts() const { return contacts_; }
+  /// Of settings.contacts.noCrossings, over all steps.
+  const CrossingReport& ways() const { return ways_; }
   /// Intermediates of the last outer step, one entry per strand.
   const std::vector<StrandTaps<Real>>& taps() const { return taps_; }
 
@@ -151,6 +154,9 @@ class Simulation {
   }
 
   void record(const RestStrand<Real>& rest, const StrandTaps<Real>& taps);
+  // ContactSettings::noCrossings: after the move, from where particles were at the step's start. The solver's
+  // own code: it runs on the host there, too.
+  void keepApart(const HeadPose& next, const Field<Real>& starts);
 
   Settings settings_;
   Vec3d balancedGravity_;  // of the rest pose [m/s^2]
@@ -177,6 +183,7 @@ class Simulation {
   std::vector<StrandSystem> systems_;  // of the current step
   std::vector<StrandTaps<Real>> taps_;
   Contacts<Real> contacts_;
+  CrossingReport ways_;
   StepScratch<Real> scratch_;
   Report report_;
 };

@@ -111,6 +111,9 @@ py::dict contactReportOf(HairObject& self) {
   report["volume_cut"] = r.volumeCut;
   report["volume_largest"] = r.volumeLargest;
   report["volume_coarsest"] = r.volumeCoarsest;
+  report["ways_changed"] = r.ways.changed, report["ways_tied"] = r.ways.tied;
+  report["edges_stretched"] = r.ways.stretched, report["steps_held"] = r.ways.heldSteps;
+  report["pairs_unsafe"] = r.ways.unsafe;
   return report;
 }
 
@@ -346,12 +349,15 @@ void addReports(HairClass& hair) {
           "What happened to the numbers since it was made: a dict of max_edge_stretch (longest edge over the "
           "groom's), limited_share (of edges that the stretch limit touched), nonfinite (particles without a "
           "finite place now), first_nonfinite_strand, first_nonfinite_particle, degenerate_edges.")
-      .def("contact_report", &contactReportOf,
-           "What contacts did: a dict of contact_particles, pairs_unpruned, pairs, volume_strands, listed, "
-           "contacts, pair_tests, rebuilds, momentum_error, volume_cut (how often hair as a volume was held "
-           "back: its coupling was larger than the sums have room for), volume_largest (the largest coupling "
-           "as a share of that room), volume_coarsest (the largest cell as a multiple of that asked for). "
-           "Without contacts all is 0.")
+      .def(
+          "contact_report", &contactReportOf,
+          "What contacts did: a dict of contact_particles, pairs_unpruned, pairs, volume_strands, listed, "
+          "contacts, pair_tests, rebuilds, momentum_error, volume_cut (how often hair as a volume was held "
+          "back: its coupling was larger than the sums have room for), volume_largest (the largest coupling "
+          "as a share of that room), volume_coarsest (the largest cell as a multiple of that asked for); with "
+          "no_crossings, over all steps, ways_changed, ways_tied (particles), edges_stretched (beyond the "
+          "limit), steps_held (all hair moved as the head), pairs_unsafe. "
+          "Without contacts all is 0.")
       .def("memory", &memoryOf,
            "Bytes of its buffers on the device, by what they are for, and their total: a dict.")
       .def(

@@ -21,7 +21,7 @@ const char* nameOf(FrameStage stage) {
   return kNames[static_cast<std::size_t>(stage)];
 }
 const char* nameOf(Exchange what) {
-  static constexpr const char* kNames[] = {"rows", "starts", "sample", "sums"};
+  static constexpr const char* kNames[] = {"rows", "starts", "sample", "sums", "ways"};
   return kNames[static_cast<std::size_t>(what)];
 }
 
@@ -120,6 +120,18 @@ TEST(FramePlan, AFirstSolveWithoutBodiesIsAPassOfItsOwn) {
                                           "solve 1 bare",   "brought 1, first", "sums 1, first",
                                           "means 1, first", "solve 1 move",     "end"};
   EXPECT_EQ(textsOf(plan), expected);
+}
+
+// The host changes ways after a step's move, before the next step's first solve.
+TEST(FramePlan, HairThatIsKeptApartEndsASubmissionWithEachStep) {
+  EXPECT_EQ(
+      textsOf(stagesOf({.steps = 2, .contacts = {true, false}, .keepsApart = true})),
+      (std::vector<std::string>{"inputs", "solve 0 first", "motion 0", "grid 0", "lists 0", "touch 0",
+                                "solve 0 move", "exchange 0 ways", "solve 1 first", "motion 1", "grid 1",
+                                "lists 1", "touch 1", "solve 1 move", "exchange 1 ways", "end"}));
+  EXPECT_EQ(textsOf(stagesOf({.steps = 2, .keepsApart = true})),
+            (std::vector<std::string>{"inputs", "solve 0 first", "exchange 0 ways", "solve 1 first",
+                                      "exchange 1 ways", "end"}));
 }
 
 // The cloth near to hair is found once a step, before the first solve that knows bodies.

@@ -129,8 +129,8 @@ TEST_F(ReportKeys, OfSimulateAndScene) {
   make("groom.obj");
   std::ofstream(folder_ / "scene.toml")
       << "[groom]\nfile = 'groom.obj'\n[[body]]\nshape = 'plane'\nposition = [0, -9, 0]\n";
-  expectInHelp({"simulate"},
-               {{"simulate", "scene.toml", "--backend", "reference", "--frames", "1", "-o", "out"}});
+  expectInHelp({"simulate"}, {{"simulate", "scene.toml", "--backend", "reference", "--frames", "1",
+                               "--contacts", "on", "--no-crossings", "-o", "out"}});
   expectInHelp({"simulate", "measure", "scene"},
                {{"scene", "hanging_curl", "--backend", "reference", "--seconds", "0.05"},
                 {"scene", "--list"},

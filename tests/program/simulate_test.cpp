@@ -323,6 +323,7 @@ TEST(Simulate, ContactsAreForTheAsking) {
                 2,
                 "--contacts: there is no 'maybe' (only off, on, auto, explicit, volume)"},
            Case{{"--prune", "8"}, 2, "--prune: only with --contacts on or --measure-contacts"},
+           Case{{"--no-crossings"}, 2, "--no-crossings: only with --contacts on or --measure-contacts"},
            Case{{"--contacts", "on", "--prune", "8.5"}, 2, "not '8.5', or none"},
            Case{{"--contacts", "on", "--prune", "none", "--max-neighbours", "4"},
                 2,

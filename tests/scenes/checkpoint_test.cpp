@@ -65,6 +65,9 @@ std::vector<Case> allCases() {
   cases.push_back(cases[cases.size() - 2]);  // whose lists are kept from step to step
   cases.back().name = "contacts at rest";
   cases.back().isStill = true;
+  cases.push_back(cases[cases.size() - 3]);
+  cases.back().name = "contacts without crossings";
+  cases.back().settings.contacts.noCrossings = true;
   cases.push_back({.name = "a volume", .groom = tuft()});
   cases.back().settings.contacts.on = true;
   cases.back().settings.contacts.method = ContactMethod::volume;
@@ -172,6 +175,7 @@ TEST_F(Checkpoint, GoesOnWithTheSameBits) {
     EXPECT_EQ(contactsWere.rebuilds, contactsAre.rebuilds);
     EXPECT_EQ(contactsWere.momentumError, contactsAre.momentumError);
     EXPECT_EQ(contactsWere.volumeCut, contactsAre.volumeCut);
+    EXPECT_EQ(contactsWere.ways.changed, contactsAre.ways.changed);
     EXPECT_EQ(contactsWere.volumeLargest, contactsAre.volumeLargest);
     if (pairs && !one.isStill) {
       EXPECT_GT(contactsWere.contacts, 0u) << "nothing touches, and nothing is tested";

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kGroup = "Contacts";
 constexpr const char *kOn = "contacts.on", *kMethod = "contacts.method", *kPrunes = "contacts.prune_pairs",
-                     *kMinOverlaps = "contacts.min_overlaps";
+                     *kMinOverlaps = "contacts.min_overlaps", *kNoCrossings = "contacts.no_crossings";
 
 // A pruning level: off, or a number of overlaps, at least 1.
 CLI::Validator pruneLevel() {
@@ -61,6 +61,14 @@ void addContactOptions(CLI::App& command, TypedKeys& typed, const std::string& d
       ->check(pruneLevel())
       ->type_name("N|none")
       ->group(kGroup);
+  command
+      .add_flag_callback(
+          "--no-crossings",
+          [&typed] {
+            typed.options.push_back({kNoCrossings, "true"});
+          },
+          fieldNamed(contactFields(), "no_crossings")->effect)
+      ->group(kGroup);
   addKeyOptions(command, typed, "contacts", kGroup);
 }
 
@@ -85,7 +93,11 @@ void refuseContactOptions(const TypedKeys& typed, const std::string& reason) {
   const auto how = std::ranges::find_if(typed.options, saysHow);
   if (how == typed.options.end()) return;
   const bool isPruning = how->key == kPrunes || how->key == kMinOverlaps;
-  throw CLI::ValidationError(isPruning ? "--prune" : optionNamed(how->key), reason);
+  const bool isOfCrossings = how->key == kNoCrossings;
+  throw CLI::ValidationError(isPruning       ? "--prune"
+                             : isOfCrossings ? "--no-crossings"
+                                             : optionNamed(how->key),
+                             reason);
 }
 
 }  // namespace ringlet::program

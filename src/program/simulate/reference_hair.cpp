@@ -129,6 +129,7 @@ class ReferenceHair : public SceneHair {
     report.pairTests = simulation_.contacts().pairTests;
     report.rebuilds = from.steps;  // every step searches all pairs
     report.momentumError = from.momentumError;
+    report.ways = simulation_.ways();
     return report;
   }
 

@@ -15,6 +15,25 @@ namespace {
 
 constexpr double kFar = 0.05;  // hair that stays farther from all bodies never touched them [m]
 
+std::string waysText(const CrossingReport& ways) {
+  const auto share = [&](std::uint64_t some) {
+    return 100 * static_cast<double>(some) / static_cast<double>(std::max<std::uint64_t>(ways.particles, 1));
+  };
+  const double mean = ways.changed > 0 ? ways.changes / static_cast<double>(ways.changed) : 0;
+  std::string text = fmt::format(
+      "  no crossings  {:.3g} % of ways were changed, by {:.3g} mm on the mean and {:.3g} mm at most; {:.2g} % of "
+      "particles were tied\n",
+      share(ways.changed), 1000 * mean, 1000 * ways.mostChange, share(ways.tied));
+  if (ways.stretched > 0)
+    text +=
+        fmt::format("                this stretched {} edges beyond the limit, to {:.3g} x their length\n",
+                    ways.stretched, ways.mostStretch);
+  if (ways.heldSteps > 0)
+    text +=
+        fmt::format("                in {} steps all hair had to move as the head does\n", ways.heldSteps);
+  return text;
+}
+
 std::string contactText(const RunOutcome& outcome, const ContactSettings& settings) {
   std::string text;
   if (outcome.contacts) {
@@ -30,6 +49,7 @@ std::string contactText(const RunOutcome& outcome, const ContactSettings& settin
     if (report.volumeStrands > 0)
       text += fmt::format("  volume        {} strands meet as a volume, with up to {:.2g} of its range\n",
                           report.volumeStrands, report.volumeLargest);
+    if (settings.noCrossings) text += waysText(report.ways);
   }
   if (outcome.contactNumbers) {
     const ContactNumbers& numbers = *outcome.contactNumbers;

@@ -54,6 +54,13 @@ Vec3<T> normalizedOr(Vec3<T> v, Vec3<T> fallback) {
 using Vec3f = Vec3<float>;
 using Vec3d = Vec3<double>;
 
+/// v as floats store it. `volatile`: GCC 12 takes a pair of doubles that is rounded to floats and back for
+/// the pair itself.
+inline Vec3d asStored(Vec3d v) {
+  const volatile float x = static_cast<float>(v.x), y = static_cast<float>(v.y), z = static_cast<float>(v.z);
+  return {double{x}, double{y}, double{z}};
+}
+
 /// Any unit vector across a unit vector, always the same for the same one.
 inline Vec3d anyNormal(Vec3d direction) {
   const Vec3d axis = std::abs(direction.x) < 0.5 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};

@@ -18,13 +18,9 @@ Result<ContactWatch> ContactWatch::make(const Groom& groom, const Material& mate
 
 ContactWatch::ContactWatch(ContactRuler ruler, std::span<const std::uint32_t> firstPoint,
                            const ContactSettings& settings)
-    : ruler_(std::move(ruler)), firstPoint_(firstPoint.begin(), firstPoint.end()) {
-  if (!settings.bundles) return;
-  bundles_.resize(firstPoint_.size() - 1);
-  for (std::size_t b = 0; b < settings.bundles->size(); ++b)
-    for (const std::uint32_t strand : (*settings.bundles)[b])
-      bundles_[strand] = static_cast<std::uint32_t>(b + 1);
-}
+    : ruler_(std::move(ruler)),
+      firstPoint_(firstPoint.begin(), firstPoint.end()),
+      bundles_(bundlesOf(settings, firstPoint.size() - 1)) {}
 
 void ContactWatch::addStep(std::span<const Vec3f> positions) {
   if (!positions_.empty()) numbers_.crossings += countCrossings(firstPoint_, positions_, positions, bundles_);

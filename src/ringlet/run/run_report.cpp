@@ -25,6 +25,10 @@ constexpr ReportRow<FrameMilliseconds> kFrameTimes[] = {
      [](const FrameMilliseconds& f) -> Json { return f.least; }},
 };
 
+double shareOf(std::uint64_t some, std::uint64_t all) {
+  return all > 0 ? static_cast<double>(some) / static_cast<double>(all) : 0.0;
+}
+
 constexpr ReportRow<BodyOutcome> kBodies[] = {
     {{"name", "", "Its name."}, [](const BodyOutcome& b) -> Json { return b.name; }},
     {{"shape", "", "Its shape."}, [](const BodyOutcome& b) -> Json { return b.shape; }},
@@ -40,6 +44,27 @@ constexpr ReportRow<BodyOutcome> kBodies[] = {
     {{"inside", "", "As inside_bodies."}, [](const BodyOutcome& b) -> Json { return b.numbers.inside; }},
     {{"caught", "", "Particles that were deeper than within_mm once they had been outside."},
      [](const BodyOutcome& b) -> Json { return b.numbers.caught; }},
+};
+
+constexpr ReportRow<CrossingReport> kWays[] = {
+    {{"changed_share", "1", "Share of ways, of all particles in all steps, that were changed."},
+     [](const CrossingReport& r) -> Json { return shareOf(r.changed, r.particles); }},
+    {{"mean_change_mm", "mm", "By how much, on the mean of these."},
+     [](const CrossingReport& r) -> Json {
+       return r.changed > 0 ? 1000 * r.changes / static_cast<double>(r.changed) : 0.0;
+     }},
+    {{"most_change_mm", "mm", "And at most."},
+     [](const CrossingReport& r) -> Json { return 1000 * r.mostChange; }},
+    {{"tied_share", "1", "Share of particles that were tied to others for a step, and moved as one."},
+     [](const CrossingReport& r) -> Json { return shareOf(r.tied, r.particles); }},
+    {{"stretched", "", "Edges, over all steps, that the changes made longer than the stretch limit allows."},
+     [](const CrossingReport& r) -> Json { return r.stretched; }},
+    {{"most_stretch", "1", "The longest of these over its length in the groom; 0: there was none."},
+     [](const CrossingReport& r) -> Json { return r.mostStretch; }},
+    {{"held_steps", "", "Steps in which nothing else helped than to move all hair as the head does."},
+     [](const CrossingReport& r) -> Json { return r.heldSteps; }},
+    {{"unsafe", "", "Pairs of edges that may have crossed in spite of all: by the ways of roots."},
+     [](const CrossingReport& r) -> Json { return r.unsafe; }},
 };
 
 constexpr Row kWallTimes[] = {
@@ -134,6 +159,13 @@ constexpr Row kRows[] = {
      ofContacts<&ContactReport::volumeCut>},
     {{"volume_largest", "1", "The largest coupling, as a share of that room."},
      ofContacts<&ContactReport::volumeLargest>},
+    {{"no_crossings", "", "What kept hair from going through hair; null where it is not kept from that.",
+      keysOf<kWays>},
+     [](const Source& f) -> Json {
+       return f.outcome.contacts && f.settings.contacts.noCrossings
+                  ? objectOf<kWays>(f.outcome.contacts->ways)
+                  : Json();
+     }},
     {{"raw_recall", "1",
       "Share of overlapping spheres whose strands may touch, in the frame of contacts; null where contacts are "
       "not measured, as the three that follow."},

@@ -55,6 +55,10 @@ std::span<const SettingField<ContactSettings>> contactFields() {
         "dense hair takes less than half the time, and more hair passes through.",
         &C::detail,
         {0.05, 1}},
+      F{"no_crossings", "", "",
+        "Whether hair is kept from going through hair by construction: after each step ways are changed until "
+        "no edge of one strand can pass through one of another. On the CPU, and slow where hair is dense.",
+        &C::noCrossings},
       F{"prune_pairs", "", "", "Whether only strands that are near each other at rest may touch.",
         &C::prunePairs},
       F{"enlargement",

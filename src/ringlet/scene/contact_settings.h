@@ -109,6 +109,9 @@ struct ContactSettings {
 
   std::shared_ptr<const std::vector<ContactBundle>> bundles;  // no strand in two; null: none
 
+  /// Beside what contacts do, ways are changed until no hair can go through hair (ringlet/crossings).
+  bool noCrossings = false;
+
   // The spring between two spheres that touch. Spheres may overlap at rest; the spring has no force there.
   double stiffness = 1000;  // in w / R, 0 to 1e7; a tenth of the default is soft
   double dampingRatio = 1;  // along the contact's normal; 1 is critical, 0 to 100
@@ -174,5 +177,15 @@ struct ContactSettings {
   std::optional<int> iterations;
   int iterationCount(bool pairByPair) const { return iterations.value_or(pairByPair ? 2 : 1); }
 };
+
+/// The bundle of each strand, from 1; 0: none. Empty where no strand has one.
+inline std::vector<std::uint32_t> bundlesOf(const ContactSettings& settings, std::size_t strandCount) {
+  if (!settings.bundles) return {};
+  std::vector<std::uint32_t> bundles(strandCount);
+  for (std::size_t b = 0; b < settings.bundles->size(); ++b)
+    for (const std::uint32_t strand : (*settings.bundles)[b])
+      bundles[strand] = static_cast<std::uint32_t>(b + 1);
+  return bundles;
+}
 
 }  // namespace ringlet

@@ -111,6 +111,10 @@ Status checkPart(const Settings& settings, const PartLink* link) {
   if (settings.sleepSpeed > 0)
     return Error{
         "hair that may sleep cannot be divided among devices; set sleep_speed to 0, or use one device"};
+  if (settings.contacts.on && settings.contacts.noCrossings)
+    return Error{
+        "hair that is kept from going through hair cannot be divided among devices yet; set no_crossings to "
+        "false, or use one device"};
   return {};
 }
 

@@ -88,8 +88,10 @@ Status HairFrames::recordAll(std::span<const HairFrame> frames, gpu::CommandList
 Status Simulation::Implementation::checkFree(const HairFrame& frame) const {
   if (frames.lost) return *frames.lost;
   if (Status status = device().checkProcess(); !status) return status;
-  if (contacts.divided)
-    return Error{"a frame of hair that other devices share is several submissions: step it by itself"};
+  if (contacts.isInParts())
+    return Error{
+        "a frame of hair that other devices share, or that is kept from going through hair, is several "
+        "submissions: step it by itself"};
   const std::uint64_t open = frames.submitted - frames.finished;
   const bool isAlone = contacts.pairs || isJump(frame.stepPoses);
   if (open == 0 || (!isAlone && open < kFramesInFlight)) return {};

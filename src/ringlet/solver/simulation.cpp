@@ -124,6 +124,7 @@ Status Simulation::Implementation::addContacts() {
     if (!stage) return stage.error();
     contacts.volume = std::move(*stage);
   }
+  if (settings.contacts.noCrossings) contacts.crossings.emplace(rest(), settings);
   if (asset->halo) {
     auto made =
         DividedHair::create(device().gpu(), atRest, *asset->halo, *asset->choice.link, buffers.chunks[0]);

@@ -19,6 +19,7 @@
 
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
+#include "ringlet/crossings/crossing_report.h"
 #include "ringlet/groom/groom.h"
 #include "ringlet/rest/material.h"
 #include "ringlet/scene/body.h"
@@ -72,6 +73,7 @@ struct ContactReport {
   double volumeLargest = 0;     // the largest coupling as a share of what the sums can hold; above 1 it was
                                 // cut off
   double volumeCoarsest = 0;    // the largest cell of the volume's grid as a multiple of the size asked for
+  CrossingReport ways{};        // changed so that no hair goes through hair, since the simulation began
   // The counts that listed, contacts and momentumError are derived from, of the strands that are simulated
   // here; each pair has two sides.
   std::uint64_t listedSides = 0, contactSides = 0;

@@ -12,6 +12,8 @@ Status Simulation::Implementation::checkCuts(std::span<const StrandCut> cuts) co
     return Error{"hair is cut with the integrator jacobi only; this run has another"};
   if (!rest().elsewhere.empty() || contacts.divided)
     return Error{"hair that is divided among devices is not cut; use one device"};
+  if (contacts.crossings)
+    return Error{"hair that is kept from going through hair is not cut yet; set no_crossings to false"};
   return fallen().check(cuts, static_cast<std::uint32_t>(std::max(settings.rootCount, 2)));
 }
 

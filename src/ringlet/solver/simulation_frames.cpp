@@ -243,7 +243,8 @@ std::vector<PlannedStage> Simulation::Implementation::planStages() const {
       .hasCloth = kernels.strands.cloth != nullptr,
       .predictsWithoutBodies = kernels.firstSolve.areThere(),
       .isDivided = contacts.divided.has_value(),
-      .samples = contacts.pairs && contacts.pairs->samples()};
+      .samples = contacts.pairs && contacts.pairs->samples(),
+      .keepsApart = contacts.crossings.has_value()};
   if (contacts.volume) needs.sorts = [this](std::uint32_t step) { return contacts.volume->sorts(step); };
   return stagesOf(needs);
 }
@@ -308,6 +309,7 @@ Result<bool> Simulation::Implementation::prepareFrame(std::span<const HeadPose> 
   }
   if (contacts.volume && !jumps && !stillness.sleeps())
     contacts.volume->beginFrame(static_cast<std::uint32_t>(stepPoses.size()));
+  if (contacts.crossings) contacts.crossings->beginFrame(std::span(heads).subspan(1));
   frames.slots[slot].rigid = inputs.get<RigidHair>().positions(head().now);
   clock.steps += stepPoses.size();
   frames.isReadBack = frames.readBack();
@@ -323,19 +325,19 @@ Status Simulation::Implementation::submitFrame(std::span<const HeadPose> stepPos
   if (Status status = prepare({.roots = !rootPoses.empty()}); !status) return status;
   // A frame with contacts may halt and need to be continued, so the next one cannot be submitted before it
   // has ended.
-  if (contacts.pairs || contacts.divided || isJump(stepPoses)) {
+  if (contacts.pairs || contacts.isInParts() || isJump(stepPoses)) {
     if (Status status = finishFrames(); !status) return status;
   }
   const auto works = prepareFrame(stepPoses, bodyPoses, rootPoses, bodyPoints);
   if (!works) return works.error();
   const std::size_t slot = frames.slotNumber(frames.submitted);
-  if (*works && contacts.divided) {
+  if (*works && contacts.isInParts()) {
     if (Status status = runParts(slot); !status) {
-      contacts.divided->fail(status.error());
+      if (contacts.divided) contacts.divided->fail(status.error());
       frames.lost = status.error();
       return status;
     }
-    frames.slots[slot].arrive(asset->framePlaces);
+    arrive(slot);
     ++frames.finished;
   } else if (*works) {
     if (!isRecorded(slot)) {
@@ -371,6 +373,14 @@ void SpentTimes::add(const gpu::Recorder& recorder) {
   host.fence += recorder.fenceMilliseconds();
 }
 
+// Takes over the positions of a frame that has ended.
+void Simulation::Implementation::arrive(std::size_t slot) {
+  frames.slots[slot].arrive(asset->framePlaces);
+  const bool isWatched = settings.sleepSpeed > 0;
+  stillness.observe(isWatched ? frames.slots[slot].positions() : std::span<const Vec3f>(),
+                    settings.sleepSpeed / settings.framesPerSecond);
+}
+
 // If a list was too short, the frame halted; it continues from that step with longer lists, so that no pair
 // is lost. A frame in a host's commands has been finished by the device when this is called.
 Status Simulation::Implementation::runToEnd(std::size_t slot) {
@@ -391,10 +401,7 @@ Status Simulation::Implementation::runToEnd(std::size_t slot) {
       frames.forgetRecordings();
     }
     if (!isHalted) {
-      frames.slots[slot].arrive(asset->framePlaces);
-      const bool isWatched = settings.sleepSpeed > 0;
-      stillness.observe(isWatched ? frames.slots[slot].positions() : std::span<const Vec3f>(),
-                        settings.sleepSpeed / settings.framesPerSecond);
+      arrive(slot);
       return {};
     }
     if (Status status = contacts.pairs->makeRoom(); !status) return status;

@@ -179,6 +179,7 @@ struct Simulation::Implementation {
   Status finishFrames(std::uint64_t end);
   Status finishFrames() { return finishFrames(frames.submitted); }
   Status runToEnd(std::size_t slot);
+  void arrive(std::size_t slot);
   Status jump(const FrameContext& frame);
 
   // divided_frames.cpp
@@ -188,6 +189,7 @@ struct Simulation::Implementation {
   Status exchangeSample(PartStep& now);
   Status exchangeSums(const PlannedStage& stage);
   Status exchange(const PlannedStage& stage, PartStep& now);
+  Status keepApart(std::uint32_t step);
   Status runParts(std::size_t slot);
 
   // hair_frames.cpp

@@ -14,6 +14,7 @@ Status HairContacts::archive(Archive& archive) {
   if (volume) {
     if (Status status = volume->archive(archive); !status) return status;
   }
+  if (crossings) crossings->archive(archive);
   return pairs ? pairs->archive(archive) : Status{};
 }
 
@@ -33,6 +34,7 @@ Result<ContactReport> HairContacts::report() const {
     report.volumeCut = reached->cut, report.volumeLargest = reached->largest;
     report.volumeCoarsest = reached->coarsest;
   }
+  if (crossings) report.ways = crossings->report();
   return report;
 }
 

@@ -1,9 +1,11 @@
-// Implements the frames of divided hair (divided_hair.h). A frame is several submissions, each
-// recorded when it is due: the plan of the frame (plan/frame_plan.h), cut at its exchanges.
+// Implements the frames of divided hair (divided_hair.h), and of hair that does not go through hair
+// (ringlet/crossings). A frame is several submissions, each recorded when it is due: the plan of the frame
+// (plan/frame_plan.h), cut at its exchanges.
 #include <algorithm>
 #include <array>
 
 #include "layout/contacts.h"
+#include "ringlet/base/stopwatch.h"
 #include "ringlet/solver/simulation_implementation.h"
 
 namespace ringlet {
@@ -74,8 +76,16 @@ Status Simulation::Implementation::exchange(const PlannedStage& stage, PartStep&
       return exchangeSample(now);
     case Exchange::sums:
       return exchangeSums(stage);
+    case Exchange::ways:
+      return keepApart(stage.step);
   }
   return {};
+}
+
+// On the host: no hair through hair.
+Status Simulation::Implementation::keepApart(std::uint32_t step) {
+  const Stopwatch watch(times.stages["no_crossings"]);
+  return contacts.crossings->keepApart(buffers, settings, step);
 }
 
 // If this part's lists are too short, it repeats the step alone: by then it has all data of the other parts.
@@ -87,6 +97,9 @@ Status Simulation::Implementation::runParts(std::size_t slot) {
   const std::span<const PlannedStage> plan = stages;
   PartStep now;
   const PlannedStage* underWay = nullptr;  // its rows are exchanged while the next submission runs
+  if (contacts.crossings) {
+    if (Status status = contacts.crossings->begin(buffers); !status) return status;
+  }
   for (std::size_t begin = 0, end = 0; begin < plan.size(); begin = end + 1) {
     end = static_cast<std::size_t>(
         std::ranges::find(plan.subspan(begin), FrameStage::exchange, &PlannedStage::stage) - plan.begin());
@@ -98,7 +111,9 @@ Status Simulation::Implementation::runParts(std::size_t slot) {
     if (!ended) return ended;
     if (contacts.pairs && contacts.pairs->isHalted()) {
       if (Status status = contacts.pairs->makeRoom(); !status) return status;
-      if (Status status = contacts.pairs->setLargest(now.largest); !status) return status;
+      if (contacts.divided) {
+        if (Status status = contacts.pairs->setLargest(now.largest); !status) return status;
+      }
       frame.repeatsStep = true;
       end = contactsBegin(plan, contacts.pairs->haltedStep()) - 1;
       continue;

@@ -18,8 +18,11 @@ class FramePlanner {
       if (needs_.bends) add({.stage = FrameStage::bodies, .barrier = false});
       if (needs_.contacts.any()) {
         contactFrame();
-      } else if (needs_.hasCloth) {
-        for (std::uint32_t step = 0; step < needs_.steps; ++step) solve({.step = step, .moves = true});
+      } else if (needs_.hasCloth || needs_.keepsApart) {
+        for (std::uint32_t step = 0; step < needs_.steps; ++step) {
+          solve({.step = step, .moves = true});
+          keepApart(step);
+        }
       } else {
         add({.stage = FrameStage::steps, .barrier = false});
       }
@@ -38,9 +41,18 @@ class FramePlanner {
         if (iteration > 1) nextContacts(step);
         if (needs_.contacts.volume)
           add({.stage = FrameStage::means, .step = step, .isFirst = iteration == 1});
-        solve({step, true, isLast, isLast && step + 1 < needs_.steps}, iteration == 1);
+        const bool goesOn = isLast && step + 1 < needs_.steps;
+        solve({step, true, isLast, goesOn && !needs_.keepsApart}, iteration == 1);
+        if (isLast) keepApart(step);
+        if (goesOn && needs_.keepsApart) solve({.step = step + 1});
       }
     }
+  }
+
+  // Ends the submission, for the host.
+  void keepApart(std::uint32_t step) {
+    if (!needs_.keepsApart) return;
+    add({.stage = FrameStage::exchange, .step = step, .barrier = false, .exchange = Exchange::ways});
   }
 
   // The stages of a step before its first solve with contacts, without the volume's means. Pairs come first:

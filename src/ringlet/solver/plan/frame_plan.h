@@ -34,16 +34,17 @@ enum class FrameStage : std::uint8_t {
   rowsOut,   // divided: packs rows of this part's contact particles for other parts
   rowsIn,    // divided: unpacks the rows of other parts
   reach,     // divided: writes the range of cells of all parts' particles
-  exchange,  // divided: ends the submission; parts exchange data (Exchange)
+  exchange,  // ends the submission: the host exchanges data with other parts, or changes them (Exchange)
   end,       // copies positions and the control block to the host
 };
 
-/// What parts of divided hair exchange where a submission ends.
+/// What the host does where a submission ends: what parts of divided hair exchange; or what it changes.
 enum class Exchange : std::uint8_t {
   rows,    // of contact particles, while the next submission runs
   starts,  // at the start of a step: the largest motion, and the volume's reach
   sample,  // counts of the sample that decides whether lists are made anew
   sums,    // of the volume, and of its densities in a step that sorts
+  ways,    // after a step's move: keeps hair from going through hair (ringlet/crossings)
 };
 
 /// The strands that a solve is of: those that other parts may touch (RestHalo), the others, or all.
@@ -83,6 +84,7 @@ struct FrameNeeds {
   bool predictsWithoutBodies = false;
   std::function<bool(std::uint32_t step)> sorts{};  // whether the volume sorts in this step; none: never
   bool isDivided = false, samples = false;          // divided: ContactStage::samples
+  bool keepsApart = false;                          // ContactSettings::noCrossings
 };
 
 std::vector<PlannedStage> stagesOf(const FrameNeeds& needs);
