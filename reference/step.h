@@ -154,8 +154,8 @@ class Simulation {
   }
 
   void record(const RestStrand<Real>& rest, const StrandTaps<Real>& taps);
-  // ContactSettings::noCrossings: after the move, from where particles were at the step's start. The solver's
-  // own code: it runs on the host there, too.
+  // ContactSettings::noCrossings: after the move, from where particles were at the step's start. By the code
+  // that the solver has: no kernel does it.
   void keepApart(const HeadPose& next, const Field<Real>& starts);
 
   Settings settings_;

@@ -16,14 +16,11 @@ namespace {
 constexpr double kFar = 0.05;  // hair that stays farther from all bodies never touched them [m]
 
 std::string waysText(const CrossingReport& ways) {
-  const auto share = [&](std::uint64_t some) {
-    return 100 * static_cast<double>(some) / static_cast<double>(std::max<std::uint64_t>(ways.particles, 1));
-  };
-  const double mean = ways.changed > 0 ? ways.changes / static_cast<double>(ways.changed) : 0;
   std::string text = fmt::format(
       "  no crossings  {:.3g} % of ways were changed, by {:.3g} mm on the mean and {:.3g} mm at most; {:.2g} % of "
       "particles were tied\n",
-      share(ways.changed), 1000 * mean, 1000 * ways.mostChange, share(ways.tied));
+      100 * ways.shareOf(ways.changed), 1000 * ways.meanChange(), 1000 * ways.mostChange,
+      100 * ways.shareOf(ways.tied));
   if (ways.stretched > 0)
     text +=
         fmt::format("                this stretched {} edges beyond the limit, to {:.3g} x their length\n",

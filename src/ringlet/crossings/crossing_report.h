@@ -17,6 +17,13 @@ struct CrossingReport {
   std::uint64_t heldSteps = 0;  // in which all free hair moved as the head does
   std::uint64_t unsafe = 0;     // pairs of edges that may have crossed in spite of all
 
+  /// Of all ways, such as `changed` or `tied`.
+  double shareOf(std::uint64_t some) const {
+    return particles > 0 ? static_cast<double>(some) / static_cast<double>(particles) : 0;
+  }
+  /// Of ways that were changed [m].
+  double meanChange() const { return changed > 0 ? changes / static_cast<double>(changed) : 0; }
+
   void add(const CrossingReport& other);
 };
 

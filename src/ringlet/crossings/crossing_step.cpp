@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kGap = 1e-4;   // that pairs keep, if they had it [m]
 constexpr double kSlack = 0.5;  // share of what it aims at that a pair which cannot cross may lack
-constexpr double kLeastGap =
-    1e-5;  // a pair that ends nearer, and at less than half of what it had, may cross [m]
+// A pair that ends nearer, and at less than half of what it had, may cross [m].
+constexpr double kLeastGap = 1e-5;
 constexpr double kCrossingReach = 1e-3;  // of lists [m]
 constexpr double kListRound = 1e-6;      // of it, for rounding [m]
 constexpr double kWidestSpread = 0.25;   // of a strand's edges: in the first passes

@@ -25,10 +25,6 @@ constexpr ReportRow<FrameMilliseconds> kFrameTimes[] = {
      [](const FrameMilliseconds& f) -> Json { return f.least; }},
 };
 
-double shareOf(std::uint64_t some, std::uint64_t all) {
-  return all > 0 ? static_cast<double>(some) / static_cast<double>(all) : 0.0;
-}
-
 constexpr ReportRow<BodyOutcome> kBodies[] = {
     {{"name", "", "Its name."}, [](const BodyOutcome& b) -> Json { return b.name; }},
     {{"shape", "", "Its shape."}, [](const BodyOutcome& b) -> Json { return b.shape; }},
@@ -48,15 +44,13 @@ constexpr ReportRow<BodyOutcome> kBodies[] = {
 
 constexpr ReportRow<CrossingReport> kWays[] = {
     {{"changed_share", "1", "Share of ways, of all particles in all steps, that were changed."},
-     [](const CrossingReport& r) -> Json { return shareOf(r.changed, r.particles); }},
+     [](const CrossingReport& r) -> Json { return r.shareOf(r.changed); }},
     {{"mean_change_mm", "mm", "By how much, on the mean of these."},
-     [](const CrossingReport& r) -> Json {
-       return r.changed > 0 ? 1000 * r.changes / static_cast<double>(r.changed) : 0.0;
-     }},
+     [](const CrossingReport& r) -> Json { return 1000 * r.meanChange(); }},
     {{"most_change_mm", "mm", "And at most."},
      [](const CrossingReport& r) -> Json { return 1000 * r.mostChange; }},
     {{"tied_share", "1", "Share of particles that were tied to others for a step, and moved as one."},
-     [](const CrossingReport& r) -> Json { return shareOf(r.tied, r.particles); }},
+     [](const CrossingReport& r) -> Json { return r.shareOf(r.tied); }},
     {{"stretched", "", "Edges, over all steps, that the changes made longer than the stretch limit allows."},
      [](const CrossingReport& r) -> Json { return r.stretched; }},
     {{"most_stretch", "1", "The longest of these over its length in the groom; 0: there was none."},

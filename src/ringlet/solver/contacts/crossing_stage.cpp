@@ -1,8 +1,6 @@
 // Implements solver/contacts/crossing_stage.h.
 #include "ringlet/solver/contacts/crossing_stage.h"
 
-#include "ringlet/base/packed.h"
-
 namespace ringlet {
 namespace {
 
@@ -53,13 +51,12 @@ Status CrossingStage::keepApart(DeviceGroom& groom, const Settings& settings, st
   starts_ = placed;
   if (placed == wanted) return {};
   const double T = settings.stepSeconds();
-  std::size_t place = 0;
-  const auto moved = [&](layout::vec4 v) {
-    const Vec3f x = static_cast<Vec3f>(placed[place++]);
-    return layout::vec4{x.x, x.y, x.z, v.w};
+  const auto stored = [&](std::size_t i) {
+    const Vec3f x = static_cast<Vec3f>(placed[i]);
+    return layout::vec4{x.x, x.y, x.z, 0};
   };
-  if (Status status = groom.changeEach(&DeviceChunk::positions, moved); !status) return status;
-  place = 0;
+  if (Status status = groom.uploadEach(&DeviceChunk::positions, stored); !status) return status;
+  std::size_t place = 0;
   const auto quickened = [&](layout::vec4 v) {
     const Vec3d change = placed[place] - wanted[place];
     ++place;
